@@ -1,0 +1,23 @@
+"""What can go wrong with what a user hands in."""
+
+from pathlib import Path
+
+
+class PilotageError(Exception):
+    """The root of all errors that `pilotage` raises on purpose."""
+
+
+class FileError(PilotageError):
+    """A file is missing, broken, or holds nothing that can be used.
+
+    The message says the rule first and the path last.
+    """
+
+    def __init__(self, rule: str, path: Path | str) -> None:
+        super().__init__(f"{rule}: {path}")
+        self.rule = rule
+        self.path = Path(path)
+
+
+class SettingsError(PilotageError, ValueError):
+    """A setting is unknown or cannot be meant."""

@@ -1,0 +1,1 @@
+"""Scores with units and intervals, runs with seeds."""

@@ -1,0 +1,10 @@
+"""Immutable values of the plane."""
+
+from pilotage.geometry.angles import wrap_angle
+from pilotage.geometry.arrays import Array, frozen_array, frozen_points
+from pilotage.geometry.polyline import Polyline
+from pilotage.geometry.pose import Pose2
+from pilotage.geometry.similarity import Similarity2
+from pilotage.geometry.span import Span
+
+__all__ = ["Array", "Polyline", "Pose2", "Similarity2", "Span", "frozen_array", "frozen_points", "wrap_angle"]

@@ -1,0 +1,51 @@
+"""Rigid motions with a change of scale."""
+
+import math
+from dataclasses import dataclass
+from typing import overload
+
+from pilotage.geometry.arrays import Array
+from pilotage.geometry.pose import Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class Similarity2:
+    """Scale first, then move: `point_in_a = pose @ (scale * point_in_b)`.
+
+    A `sketch_from_base` says where the robot stands on the drawing (`pose`, in drawing units) and how many
+    drawing units a metre is there (`scale`).
+
+    >>> sketch_from_base = Similarity2(10.0, Pose2(100.0, 50.0, 0.0))
+    >>> import numpy as np
+    >>> (sketch_from_base @ np.array([[2.0, 0.0]])).tolist()
+    [[120.0, 50.0]]
+    """
+
+    scale: float  # units of frame a in a unit of frame b
+    pose: Pose2  # in units of frame a
+
+    def __post_init__(self) -> None:
+        """Refuse a scale that is not a positive number."""
+        if not (self.scale > 0.0 and math.isfinite(self.scale)):
+            raise ValueError(f"scale must be positive and finite, got {self.scale}")
+        object.__setattr__(self, "scale", float(self.scale))
+
+    def inverse(self) -> "Similarity2":
+        """Return `b_from_a`."""
+        pose = self.pose.inverse()
+        return Similarity2(1.0 / self.scale, Pose2(pose.x / self.scale, pose.y / self.scale, pose.theta))
+
+    @overload
+    def __matmul__(self, other: "Similarity2") -> "Similarity2": ...
+    @overload
+    def __matmul__(self, other: Pose2) -> "Similarity2": ...
+    @overload
+    def __matmul__(self, other: Array) -> Array: ...
+    def __matmul__(self, other: "Similarity2 | Pose2 | Array") -> "Similarity2 | Array":
+        """Compose with a similarity or a pose, or move points (n, 2)."""
+        if isinstance(other, Pose2):
+            other = Similarity2(1.0, other)
+        if isinstance(other, Similarity2):
+            moved = Pose2(self.scale * other.pose.x, self.scale * other.pose.y, other.pose.theta)
+            return Similarity2(self.scale * other.scale, self.pose @ moved)
+        return self.pose @ (self.scale * other)

@@ -1,0 +1,1 @@
+"""Numba and plain functions on arrays and numbers: no type of ours, no checks."""

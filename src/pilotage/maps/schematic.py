@@ -1,0 +1,49 @@
+"""A drawing of a building, as a person made it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Array, Polyline
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A word on the drawing and where it stands."""
+
+    text: str
+    position: tuple[float, float]  # [drawing units], y up
+
+
+@dataclass(frozen=True, slots=True)
+class SchematicMap:
+    """The strokes of a drawing in its own arbitrary units, y up (readers flip), and what is marked on it."""
+
+    strokes: tuple[Polyline, ...]
+    start: tuple[float, float] | None = None
+    goal: tuple[float, float] | None = None
+    labels: tuple[Label, ...] = ()
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a drawing without a stroke."""
+        if not self.strokes:
+            raise ValueError("a drawing needs at least one stroke, got none")
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right and top of the strokes [drawing units]."""
+        points = np.vstack([stroke.vertices for stroke in self.strokes])
+        (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
+        return float(left), float(bottom), float(right), float(top)
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the bounds: the drawing's own yardstick [drawing units]."""
+        left, bottom, right, top = self.bounds
+        return float(np.hypot(right - left, top - bottom))
+
+    @property
+    def segments(self) -> Array:
+        """All segments of all strokes, (n, 4) as x1, y1, x2, y2 [drawing units]."""
+        return np.vstack([np.hstack([stroke.ring[:-1], stroke.ring[1:]]) for stroke in self.strokes])

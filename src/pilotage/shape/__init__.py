@@ -1,0 +1,5 @@
+"""What a contour looks like: simplification, arcs, dissimilarity, matching (Wolter 2001, 2.2 to 3.1)."""
+
+from pilotage.shape.partial import EndCause, PartialShape
+
+__all__ = ["EndCause", "PartialShape"]

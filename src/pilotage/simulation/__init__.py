@@ -1,0 +1,1 @@
+"""A world with true walls, a noisy laser and drifting odometry."""
