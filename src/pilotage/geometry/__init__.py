@@ -6,5 +6,16 @@ from pilotage.geometry.polyline import Polyline
 from pilotage.geometry.pose import Pose2
 from pilotage.geometry.similarity import Similarity2
 from pilotage.geometry.span import Span
+from pilotage.geometry.trajectory import Trajectory
 
-__all__ = ["Array", "Polyline", "Pose2", "Similarity2", "Span", "frozen_array", "frozen_points", "wrap_angle"]
+__all__ = [
+    "Array",
+    "Polyline",
+    "Pose2",
+    "Similarity2",
+    "Span",
+    "Trajectory",
+    "frozen_array",
+    "frozen_points",
+    "wrap_angle",
+]
