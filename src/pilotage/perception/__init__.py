@@ -1,5 +1,11 @@
-"""From the laser to shapes, and the local map of what was seen (Wolter 2001, sections 2.1 and 3.3)."""
+"""From the laser to shapes, and the local map of what was seen (Wolter 2001, sections 2.1 and 3.3).
 
+perceive(scan, PerceptionSettings()) -> tuple[PartialShape, ...]
+    Partial shapes of one scan in the base frame, slightly simplified.
+"""
+
+from pilotage.perception.perceive import PerceptionSettings, perceive
 from pilotage.perception.scan import LaserScan, Odometry, Reading
+from pilotage.perception.segmentation import SegmentationSettings
 
-__all__ = ["LaserScan", "Odometry", "Reading"]
+__all__ = ["LaserScan", "Odometry", "PerceptionSettings", "Reading", "SegmentationSettings", "perceive"]
