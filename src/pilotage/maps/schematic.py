@@ -24,6 +24,7 @@ class SchematicMap:
     goal: tuple[float, float] | None = None
     labels: tuple[Label, ...] = ()
     source: str = ""
+    y_down: bool = False  # whether the y axis of the source file points down, as in SVG and in pictures
 
     def __post_init__(self) -> None:
         """Refuse a drawing without a stroke."""
@@ -47,3 +48,14 @@ class SchematicMap:
     def segments(self) -> Array:
         """All segments of all strokes, (n, 4) as x1, y1, x2, y2 [drawing units]."""
         return np.vstack([np.hstack([stroke.ring[:-1], stroke.ring[1:]]) for stroke in self.strokes])
+
+    def file_from_sketch(self, points: Array) -> Array:
+        """Carry points (n, 2) from the sketch (y up) to the axes of the source file; the unit stays.
+
+        A direction, counter-clockwise on the page from its x axis, is the same number in both.
+        """
+        return points * (1.0, -1.0) if self.y_down else np.array(points, dtype=np.float64)
+
+    def sketch_from_file(self, points: Array) -> Array:
+        """Carry points (n, 2) from the axes of the source file to the sketch (y up)."""
+        return self.file_from_sketch(points)  # a flip is its own inverse

@@ -1,0 +1,209 @@
+"""Read a drawing from SVG: every visible stroke is a wall, unless a layer, class or id says otherwise."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import svgelements
+
+from pilotage.errors import FileError
+from pilotage.geometry import Array, Polyline
+from pilotage.io.logs import read_bytes
+from pilotage.io.svg.flatten import flatten
+from pilotage.io.svg.roles import Role
+from pilotage.io.svg.style import leading_number, local_name
+from pilotage.io.svg.tree import Drawn, Viewport, read_viewport, walk
+from pilotage.maps import Label, SchematicMap
+
+FLATNESS = 0.0005
+"""How far a chord may stray from its curve, as a share of the drawing's diagonal: 2 cm in a 40 m building."""
+
+GLYPH_WIDTH = 0.5
+"""Mean width of a letter in font sizes: good enough to find the middle of a word."""
+
+WHITE = ("white", "#fff", "#ffffff", "rgb(255,255,255)", "rgb(255, 255, 255)")
+
+ROUNDING = 1e-6
+"""Relative error that transforms may leave in an area."""
+
+SHAPES = {
+    "path": svgelements.Path,
+    "rect": svgelements.Rect,
+    "circle": svgelements.Circle,
+    "ellipse": svgelements.Ellipse,
+    "line": svgelements.SimpleLine,
+    "polyline": svgelements.Polyline,
+    "polygon": svgelements.Polygon,
+}
+
+Bounds = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A shape of the drawing, its outline in the root's coordinates."""
+
+    drawn: Drawn
+    outline: svgelements.Path
+    bounds: Bounds
+
+
+def read_svg(path: Path) -> SchematicMap:
+    """Read an SVG (or gzipped SVG) file as a drawing in the units of its root's viewBox.
+
+    Raises FileError for a file that is missing, is not SVG, or shows no stroke.
+    """
+    root = read_document(path)
+    try:
+        viewport = read_viewport(root)
+        items = [item for item in walk(root) if item.style.shown]
+        shapes = [shape for item in items for shape in read_shape(item)]
+    except (ValueError, IndexError, OverflowError) as error:
+        raise FileError(f"an SVG drawing holds a value that cannot be read ({error})", path) from error
+    walls = without_background([shape for shape in shapes if shape.drawn.role is Role.WALL], viewport)
+    strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
+    if not strokes:
+        raise FileError("a drawing needs at least one visible stroke, found none", path)
+    texts = [item for item in items if local_name(item.element.tag) == "text" and has_text(item)]
+    return SchematicMap(
+        strokes,
+        start=marked(Role.START, shapes, texts),
+        goal=marked(Role.GOAL, shapes, texts),
+        labels=tuple(read_label(item) for item in texts if item.role in (Role.WALL, Role.LABEL)),
+        source=str(path),
+        y_down=True,
+    )
+
+
+def read_document(path: Path) -> ET.Element:
+    """Parse the file and return its root, an `svg` element."""
+    try:
+        root = ET.fromstring(read_bytes(path))  # noqa: S314  # expat itself refuses entity bombs
+    except (ET.ParseError, LookupError, ValueError) as error:
+        raise FileError(f"an SVG drawing must be well-formed XML ({error})", path) from error
+    if local_name(root.tag) != "svg":
+        raise FileError(f"an SVG drawing must begin with <svg>, found <{local_name(root.tag)}>", path)
+    return root
+
+
+def read_shape(item: Drawn) -> Iterator[Shape]:
+    """Carry a shape to the root's coordinates; texts, and shapes of no size, give none."""
+    kind = SHAPES.get(local_name(item.element.tag))
+    if kind is None or not (item.style.stroked or item.style.filled):
+        return
+    measures = dict(item.measures)
+    measures.pop("transform", None)
+    if kind is svgelements.Rect:
+        measures = {"width": "0", "height": "0", **measures}
+    if kind is svgelements.Path:
+        outline = svgelements.Path(measures.get("d", ""))
+    else:
+        shape = kind(measures)
+        if shape.is_degenerate():
+            return
+        outline = svgelements.Path(shape)
+    outline = (outline * item.page_from_element).reify()
+    if len(outline) < 2:
+        return
+    bounds = outline.bbox()
+    if not all(math.isfinite(bound) for bound in bounds):
+        raise ValueError(f"<{local_name(item.element.tag)}> reaches beyond all numbers")
+    yield Shape(item, outline, bounds)
+
+
+def holds(outer: Bounds, inner: Bounds) -> bool:
+    """Tell whether one box lies in another."""
+    return outer[0] <= inner[0] and outer[1] <= inner[1] and outer[2] >= inner[2] and outer[3] >= inner[3]
+
+
+def without_background(walls: Sequence[Shape], viewport: Viewport) -> list[Shape]:
+    """Leave out sheets of paper: rectangles, filled but not stroked, behind all else.
+
+    A sheet covers the whole page or is white; a colored rectangle around a part of the page is a building.
+    """
+    page = (viewport.x, viewport.y, viewport.x + viewport.width, viewport.y + viewport.height)
+    kept = list(walls)
+    while len(kept) > 1:
+        first, rest = kept[0], kept[1:]
+        paper = holds(first.bounds, page) or first.drawn.style.paint("fill").lower() in WHITE
+        framing = is_box(first) and all(holds(first.bounds, other.bounds) for other in rest)
+        if first.drawn.style.stroked or not (paper and framing):
+            break
+        kept.pop(0)
+    return kept
+
+
+def is_box(shape: Shape) -> bool:
+    """Tell whether an outline is a rectangle along the axes: it fills its bounds."""
+    left, top, right, bottom = shape.bounds
+    width, height = right - left, bottom - top
+    strokes = list(flatten(shape.outline, math.hypot(width, height)))
+    return len(strokes) == 1 and math.isclose(area(strokes[0]), width * height, rel_tol=ROUNDING)
+
+
+def wall_strokes(walls: Sequence[Shape]) -> Iterator[Polyline]:
+    """Flatten the outlines; one that is filled and not stroked is closed, and seen only if it has an area."""
+    if not walls:
+        return
+    boxes = np.array([wall.bounds for wall in walls])
+    diagonal = float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+    if diagonal == 0.0:
+        return
+    for wall in walls:
+        for stroke in flatten(wall.outline, FLATNESS * diagonal):
+            if wall.drawn.style.stroked:
+                yield stroke
+            elif area(stroke) > (FLATNESS * diagonal) ** 2:
+                yield Polyline(stroke.vertices, closed=True)
+
+
+def area(stroke: Polyline) -> float:
+    """Return the area that a stroke encloses once it is closed."""
+    x, y = (stroke.vertices - stroke.vertices[0]).T
+    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2.0
+
+
+def flipped(stroke: Polyline) -> Polyline:
+    """Turn the y axis from down to up."""
+    return Polyline(stroke.vertices * (1.0, -1.0), stroke.closed)
+
+
+def marked(role: Role, shapes: Sequence[Shape], texts: Sequence[Drawn]) -> tuple[float, float] | None:
+    """Find the center of what marks a start or a goal, y up: the first such shape, else the first text."""
+    for shape in shapes:
+        if shape.drawn.role is role:
+            left, top, right, bottom = shape.bounds
+            return (left + right) / 2.0, -(top + bottom) / 2.0
+    return next((read_label(item).position for item in texts if item.role is role), None)
+
+
+def has_text(item: Drawn) -> bool:
+    """Tell whether a text says anything that can be seen."""
+    return (item.style.filled or item.style.stroked) and any(part.strip() for part in item.element.itertext())
+
+
+def read_label(item: Drawn) -> Label:
+    """Read the words of a text, and where their middle is, y up."""
+    text = " ".join("".join(item.element.itertext()).split())
+    style = item.style.values
+    size = leading_number(style["font-size"], 16.0)
+    anchored = {"middle": 0.0, "end": -0.5}.get(style["text-anchor"], 0.5)
+    x, y = (first_coordinate(item, name) for name in ("x", "y"))
+    middle = apply(item.page_from_element, np.array([x + anchored * len(text) * GLYPH_WIDTH * size, y]))
+    return Label(text, (float(middle[0]), float(-middle[1])))
+
+
+def first_coordinate(item: Drawn, name: str) -> float:
+    """Read where a text begins: its own coordinate, else that of its first part that has one."""
+    inner = (part.get(name) for part in item.element.iter() if part.get(name))
+    text = item.measures.get(name) or next(inner, None) or "0"
+    return leading_number(text, 0.0)
+
+
+def apply(matrix: svgelements.Matrix, point: Array) -> Array:
+    """Move one point (2,) by an SVG matrix."""
+    x, y = point
+    return np.array([matrix.a * x + matrix.c * y + matrix.e, matrix.b * x + matrix.d * y + matrix.f])

@@ -1,0 +1,199 @@
+"""What an SVG element looks like: attributes, `style`, and style sheets (CSS 2.1's plain selectors)."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Self
+from xml.etree.ElementTree import Element
+
+from svgelements import Color
+
+INITIAL: Mapping[str, str] = {
+    "fill": "black",
+    "stroke": "none",
+    "stroke-width": "1",
+    "stroke-opacity": "1",
+    "fill-opacity": "1",
+    "visibility": "visible",
+    "color": "black",
+    "font-size": "16",
+    "text-anchor": "start",
+}
+"""The properties that children inherit and that matter here, with the values a document begins with."""
+
+COMMENT = re.compile(r"/\*.*?\*/|<!--|-->", re.DOTALL)
+AT_RULE = re.compile(r"@[^{};]+\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}|@[^;{}]+;")
+RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
+COMPOUND = re.compile(r"([\w-]+|\*)?((?:[.#][\w-]+)*)")
+NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)")
+
+
+def local_name(name: str) -> str:
+    """Take the namespace off a tag or an attribute.
+
+    >>> local_name("{http://www.w3.org/2000/svg}rect")
+    'rect'
+    """
+    return name.rpartition("}")[2]
+
+
+def leading_number(text: str, otherwise: float) -> float:
+    """Read the number a value begins with, percent as a share.
+
+    >>> leading_number("50%", 1.0), leading_number("2px", 1.0), leading_number("bold", 1.0)
+    (0.5, 2.0, 1.0)
+    """
+    match = NUMBER.match(text)
+    if match is None:
+        return otherwise
+    return float(match[1]) * (0.01 if match[2] else 1.0)
+
+
+def declarations(text: str) -> dict[str, str]:
+    """Split `name: value; ...`."""
+    pairs = (part.partition(":") for part in text.split(";"))
+    return {
+        name.strip().lower(): value.replace("!important", "").strip() for name, colon, value in pairs if colon
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class Selector:
+    """A chain of compounds such as `g.walls > line`; the last one is the element's own."""
+
+    compounds: tuple[str, ...]
+    child: tuple[
+        bool, ...
+    ]  # whether compound k must be the parent of compound k + 1, and not only an ancestor
+
+    @classmethod
+    def read(cls, text: str) -> Self | None:
+        """Read one selector; None for what is not understood (pseudo-classes, attributes, siblings)."""
+        compounds: list[str] = []
+        child: list[bool] = []
+        direct = False
+        for part in text.replace(">", " > ").split():
+            if part == ">":
+                direct = True
+                continue
+            if COMPOUND.fullmatch(part) is None:
+                return None
+            if compounds:
+                child.append(direct)
+            compounds.append(part)
+            direct = False
+        return cls(tuple(compounds), tuple(child)) if compounds else None
+
+    @property
+    def specificity(self) -> tuple[int, int, int]:
+        """How many ids, classes and tags it names: the more specific rule wins."""
+        text = " ".join(self.compounds)
+        tags = sum(compound[0] not in ".#*" for compound in self.compounds)
+        return text.count("#"), text.count("."), tags
+
+    def matches(self, chain: Sequence[Element]) -> bool:
+        """Tell whether it selects the last element of a chain that begins at the root."""
+        return self._matches(chain, len(self.compounds) - 1)
+
+    def _matches(self, chain: Sequence[Element], k: int) -> bool:
+        if not chain or not compound_matches(self.compounds[k], chain[-1]):
+            return False
+        if k == 0:
+            return True
+        if self.child[k - 1]:
+            return self._matches(chain[:-1], k - 1)
+        return any(self._matches(chain[:end], k - 1) for end in range(len(chain) - 1, 0, -1))
+
+
+def compound_matches(compound: str, element: Element) -> bool:
+    """Tell whether tag, ids and classes of one compound are all the element's."""
+    match = COMPOUND.fullmatch(compound)
+    assert match is not None, "Selector.read lets no other through"
+    if match[1] not in (None, "*", local_name(element.tag)):
+        return False
+    classes = element.get("class", "").split()
+    return all(
+        name[1:] == element.get("id") if name[0] == "#" else name[1:] in classes
+        for name in re.findall(r"[.#][\w-]+", match[2])
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class StyleSheet:
+    """The rules of all `<style>` elements, the least specific first."""
+
+    rules: tuple[tuple[Selector, Mapping[str, str]], ...] = ()
+
+    @classmethod
+    def of(cls, root: Element) -> Self:
+        """Collect the rules of a document."""
+        texts = ("".join(node.itertext()) for node in root.iter() if is_named(node, "style"))
+        rules = [rule for text in texts for rule in read_rules(text)]
+        return cls(tuple(sorted(rules, key=lambda rule: rule[0].specificity)))  # stable: the later one wins
+
+    def declared(self, chain: Sequence[Element]) -> dict[str, str]:
+        """Collect what is declared for the last element of a chain: attributes, then rules, then `style`."""
+        element = chain[-1]
+        found = {local_name(name): value.strip() for name, value in element.attrib.items()}
+        for selector, values in self.rules:
+            if selector.matches(chain):
+                found.update(values)
+        found.update(declarations(element.get("style", "")))
+        return found
+
+
+def is_named(node: Element, name: str) -> bool:
+    """Tell whether a node is an element of this name; comments and instructions have no name."""
+    return isinstance(node.tag, str) and local_name(node.tag) == name
+
+
+def read_rules(text: str) -> Iterator[tuple[Selector, Mapping[str, str]]]:
+    """Read the rules of a style sheet that this reader understands."""
+    for names, body in RULE.findall(AT_RULE.sub("", COMMENT.sub("", text))):
+        for name in names.split(","):
+            selector = Selector.read(name)
+            if selector is not None:
+                yield selector, declarations(body)
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """What an element has inherited and what it says itself."""
+
+    values: Mapping[str, str] = field(default_factory=lambda: INITIAL)
+    opacity: float = 1.0  # of the element and all that hold it, multiplied
+    displayed: bool = True
+
+    def of_child(self, declared: Mapping[str, str]) -> "Style":
+        """Resolve a child's style from what it declares."""
+        own = {name: declared[name] for name in INITIAL if declared.get(name, "inherit") != "inherit"}
+        opacity = leading_number(declared.get("opacity", "1"), 1.0)
+        displayed = declared.get("display", "inline") != "none"
+        return Style({**self.values, **own}, self.opacity * opacity, self.displayed and displayed)
+
+    @property
+    def shown(self) -> bool:
+        """Whether the element is shown at all."""
+        return self.displayed and self.opacity > 0.0 and self.values["visibility"] == "visible"
+
+    @property
+    def stroked(self) -> bool:
+        """Whether its line can be seen."""
+        width = leading_number(self.values["stroke-width"], 1.0)
+        return self.shown and width > 0.0 and self._painted("stroke")
+
+    @property
+    def filled(self) -> bool:
+        """Whether its area can be seen."""
+        return self.shown and self._painted("fill")
+
+    def paint(self, name: str) -> str:
+        """Return the paint of "stroke" or "fill" as it is written."""
+        value = self.values[name]
+        return self.values["color"] if value.lower() == "currentcolor" else value
+
+    def _painted(self, name: str) -> bool:
+        color = Color(self.paint(name))
+        if color.value is None or color.opacity == 0.0:
+            return False
+        return leading_number(self.values[f"{name}-opacity"], 1.0) > 0.0
