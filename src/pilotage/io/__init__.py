@@ -1,6 +1,7 @@
 """One reader or writer a format."""
 
+from pilotage.io.log_writer import write_log
 from pilotage.io.logs import Log, open_log
 from pilotage.io.maps import open_map
 
-__all__ = ["Log", "open_log", "open_map"]
+__all__ = ["Log", "open_log", "open_map", "write_log"]

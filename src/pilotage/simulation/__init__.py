@@ -1,1 +1,20 @@
-"""A world with true walls, a noisy laser and drifting odometry."""
+"""True walls, noisy beams, drifting odometry."""
+
+from pilotage.simulation.laser import LaserSettings, sense
+from pilotage.simulation.robot import DriveSettings, Moment, OdometrySettings, follow, reckon
+from pilotage.simulation.run import Run, RunSettings, simulate
+from pilotage.simulation.world import World
+
+__all__ = [
+    "DriveSettings",
+    "LaserSettings",
+    "Moment",
+    "OdometrySettings",
+    "Run",
+    "RunSettings",
+    "World",
+    "follow",
+    "reckon",
+    "sense",
+    "simulate",
+]

@@ -1,0 +1,57 @@
+"""A 2-D laser scanner: beams with noise, dropouts and a limited reach."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from pilotage.geometry import Pose2
+from pilotage.perception import LaserScan
+from pilotage.simulation.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class LaserSettings:
+    """What the scanner is like; as it stands, the SICK of the nineties: 181 beams over 180 degrees."""
+
+    beams: int = 181
+    field_of_view: float = math.pi  # [rad] from the first beam to the last, symmetric about forward
+    range_max: float = 30.0  # [m]
+    noise: float = 0.015  # [m] standard deviation of a range
+    dropout: float = 0.005  # share of beams that do not return
+    base_from_laser: Pose2 = field(default_factory=Pose2.identity)
+
+    def __post_init__(self) -> None:
+        """Refuse a scanner that cannot be built."""
+        if self.beams < 2:
+            raise ValueError(f"beams must be at least 2, got {self.beams}")
+        if not 0.0 < self.field_of_view <= math.tau:
+            raise ValueError(f"field_of_view must be in (0, 2 pi] rad, got {self.field_of_view}")
+        if not self.range_max > 0.0:
+            raise ValueError(f"range_max must be > 0 m, got {self.range_max}")
+        if not self.noise >= 0.0:
+            raise ValueError(f"noise must be >= 0 m, got {self.noise}")
+        if not 0.0 <= self.dropout <= 1.0:
+            raise ValueError(f"dropout must be in [0, 1], got {self.dropout}")
+
+
+def sense(
+    world: World, world_from_base: Pose2, stamp: float, rng: np.random.Generator, settings: LaserSettings
+) -> LaserScan:
+    """Take one scan from where the robot stands."""
+    angle_min = -settings.field_of_view / 2.0
+    increment = settings.field_of_view / (settings.beams - 1)
+    world_from_laser = world_from_base @ settings.base_from_laser
+    directions = world_from_laser.theta + angle_min + increment * np.arange(settings.beams, dtype=np.float64)
+    origins = np.tile(world_from_laser.position, (settings.beams, 1))
+    ranges = world.ranges(origins, directions)
+    ranges = np.maximum(ranges + rng.normal(0.0, settings.noise, settings.beams), 0.0)
+    ranges[rng.random(settings.beams) < settings.dropout] = np.inf
+    return LaserScan(
+        stamp,
+        angle_min,
+        increment,
+        ranges,
+        range_max=settings.range_max,
+        base_from_laser=settings.base_from_laser,
+    )

@@ -1,0 +1,45 @@
+"""The packed demo is complete and fits together."""
+
+import json
+import runpy
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from pilotage import demo, open_log, open_map
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def test_the_truth_lies_inside_the_drawing_at_the_times_of_the_scans():
+    truth = [json.loads(line) for line in demo.TRUTH.read_text().splitlines()]
+    sketch = open_map(demo.SKETCH)
+    left, bottom, right, top = sketch.bounds
+    x, y = sketch.sketch_from_file(np.array([(row["x"], row["y"]) for row in truth])).T
+
+    assert [reading.scan.stamp for reading in open_log(demo.LOG)] == [row["stamp"] for row in truth]
+    assert (left < x).all()
+    assert (x < right).all()
+    assert (bottom < y).all()
+    assert (y < top).all()
+
+
+def test_furniture_is_in_the_world_and_not_in_the_sketch():
+    world, sketch = open_map(demo.WORLD), open_map(demo.SKETCH)
+    pieces = [stroke for stroke in world.strokes if stroke.closed and stroke.length < 12.0]
+
+    assert 30 <= len(pieces)
+    assert 36.0 > world.bounds[2] - world.bounds[0]
+    assert not any(stroke.closed for stroke in sketch.strokes)
+    assert "kitchen" in [label.text for label in sketch.labels]
+
+
+def test_the_script_makes_the_packed_files_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["make_demo.py", str(tmp_path)])
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    runpy.run_path(str(EXAMPLES / "make_demo.py"), run_name="__main__")
+
+    for path in (demo.SKETCH, demo.WORLD):
+        assert path.read_text() == (tmp_path / path.name).read_text()
+    assert len(open_log(demo.LOG)) == len(open_log(tmp_path / "run.log.gz"))
