@@ -1,4 +1,4 @@
-"""Make the demo: the true floor, a drawing of it from a poor memory, and the log of a robot that drives there.
+"""Make the demo: the true floor, a drawing of it from a poor memory, the log of a robot that drives there.
 
     python examples/make_demo.py [folder]
 
