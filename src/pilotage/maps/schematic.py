@@ -25,6 +25,9 @@ class SchematicMap:
     labels: tuple[Label, ...] = ()
     source: str = ""
     y_down: bool = False  # whether the y axis of the source file points down, as in SVG and in pictures
+    contours: bool = (
+        False  # whether the strokes are closed contours of free space (filled plans), not of a pen
+    )
 
     def __post_init__(self) -> None:
         """Refuse a drawing without a stroke."""

@@ -1,0 +1,122 @@
+"""Divide a drawing into cells (Wolter 2001, section 4.1)."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array
+from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway
+from pilotage.maps.enclosure import EnclosureSettings, drop_outdoors
+from pilotage.maps.free_space import FreeSpaceSettings, free_space
+from pilotage.maps.merging import MergeSettings, drop_small, merge_pieces
+from pilotage.maps.schematic import Label, SchematicMap
+from pilotage.maps.tessellation import Tessellation
+
+
+@dataclass(frozen=True, slots=True)
+class DecompositionSettings:
+    """How free space is found and how it is divided."""
+
+    free_space: FreeSpaceSettings = field(default_factory=FreeSpaceSettings)
+    merging: MergeSettings = field(default_factory=MergeSettings)
+    enclosure: EnclosureSettings = field(default_factory=EnclosureSettings)
+    small: float = 0.7  # a cell is small if its outline is shorter than this share of the median outline
+    large: float = 1.4  # and large if it is longer than this
+
+
+def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGraph:
+    """Divide the free space of a drawing into cells, the largest first.
+
+    Free space is cut wherever clearance has a minimum along its Voronoi diagram, or begins to widen; the
+    pieces are merged across all openings that do not separate them. Cells do not overlap; what they leave
+    out is below the least area, open to the outside or solid. Raises ValueError if nothing is enclosed.
+    """
+    space = free_space(sketch, settings.free_space)
+    regions = merge_pieces(space.tessellation, space.inside, settings.merging)
+    regions = drop_outdoors(space, regions, settings.enclosure)
+    regions = drop_small(space.tessellation, regions, settings.merging.least_area)
+    numbers, polygons = outlines(space.tessellation, regions)
+    cells = name_cells(polygons, sketch.labels, settings)
+    id_of = dict(zip(numbers, (cell.cell_id for cell in cells), strict=True))
+    return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), sketch.diagonal)
+
+
+def outlines(
+    tessellation: Tessellation, regions: NDArray[np.int64]
+) -> tuple[list[int], list[shapely.Polygon]]:
+    """Unite the pieces of each region; return the regions and their polygons, the largest first."""
+    numbers = np.unique(regions[regions >= 0])
+    polygons = [shapely.union_all(tessellation.pieces[regions == number]) for number in numbers]
+    polygons = [shapely.orient_polygons(largest_part(polygon)) for polygon in polygons]
+    order = sorted(range(len(numbers)), key=lambda k: (-polygons[k].area, *polygons[k].bounds))
+    return [int(numbers[k]) for k in order], [polygons[k] for k in order]
+
+
+def largest_part(shape: shapely.Geometry) -> shapely.Polygon:
+    """Return the polygon, or of several that only touch the largest."""
+    return max(shapely.get_parts(shape), key=lambda part: float(part.area))
+
+
+def name_cells(
+    polygons: list[shapely.Polygon], labels: tuple[Label, ...], settings: DecompositionSettings
+) -> tuple[Cell, ...]:
+    """Give each cell its id, size and label."""
+    lengths = [float(polygon.exterior.length) for polygon in polygons]
+    median = float(np.median(lengths)) if lengths else 0.0
+    digits = len(str(len(polygons)))
+    words = words_in(polygons, labels)
+    return tuple(
+        Cell(
+            f"c{number + 1:0{digits}}",
+            vertices_of(polygon.exterior),
+            size_of(lengths[number] / median, settings),
+            ", ".join(words[number]),
+            tuple(vertices_of(ring) for ring in polygon.interiors),
+        )
+        for number, polygon in enumerate(polygons)
+    )
+
+
+def words_in(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> list[list[str]]:
+    """Sort labels by the polygon that each stands in; those outside all are left out."""
+    words: list[list[str]] = [[] for _ in polygons]
+    for label in labels:
+        point = shapely.Point(label.position)
+        for number, polygon in enumerate(polygons):
+            if polygon.covers(point):
+                words[number].append(label.text)
+                break
+    return words
+
+
+def vertices_of(ring: shapely.LinearRing) -> Array:
+    """List the vertices of a ring, the first not repeated."""
+    return np.asarray(shapely.get_coordinates(ring)[:-1])
+
+
+def size_of(share: float, settings: DecompositionSettings) -> CellSize:
+    """Class a cell by its outline's length over the median (section 4.2)."""
+    if share < settings.small:
+        return CellSize.SMALL
+    return CellSize.LARGE if share > settings.large else CellSize.MEDIUM
+
+
+def find_gateways(
+    tessellation: Tessellation, regions: NDArray[np.int64], id_of: dict[int, str]
+) -> tuple[Gateway, ...]:
+    """Keep the chords between different cells, in order of their cells and of their place."""
+    found = []
+    for chord, (left, right) in zip(tessellation.chords, regions[tessellation.sides].tolist(), strict=True):
+        if left < 0 or right < 0 or left == right:
+            continue
+        ids = (id_of[left], id_of[right])
+        segment = chord if ids[0] < ids[1] else chord[::-1]
+        found.append((tuple(sorted(ids)), segment))
+    found.sort(key=lambda gateway: (gateway[0], *gateway[1].ravel().tolist()))
+    digits = len(str(len(found)))
+    return tuple(
+        Gateway(f"g{number + 1:0{digits}}", segment, (ids[0], ids[1]))
+        for number, (ids, segment) in enumerate(found)
+    )

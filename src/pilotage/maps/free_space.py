@@ -1,0 +1,133 @@
+"""Find free space in a drawing: what its walls enclose, small gaps mended, the outside left out."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array, Polyline
+from pilotage.maps.schematic import SchematicMap
+from pilotage.maps.tessellation import Tessellation, tessellate
+from pilotage.shape.simplify import Simplification, simplify_all
+
+FRAME = 0.5
+"""How far around the drawing the outside is looked at, as a share of its diagonal: beyond any pocket."""
+
+
+@dataclass(frozen=True, slots=True)
+class FreeSpaceSettings:
+    """What counts as a detail, a gap, an opening of the building: all as shares of the drawing's diagonal."""
+
+    detail: float = 0.0015  # least relevance of a corner [rad]: a step of 10 cm in a wall of a 50 m building
+    gap: float = 0.009  # openings narrower than this were meant to be closed: 45 cm in a 50 m building
+    blob: float = 0.01  # free-standing things smaller than this are dropped: chairs, letters, blots
+    outer_opening: float = 0.15  # the outside ends at openings narrower than this: open ends of corridors
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("detail", "gap", "blob", "outer_opening"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+        if not self.outer_opening > self.gap:
+            raise ValueError(f"outer_opening must be > gap, got {self.outer_opening} and {self.gap}")
+
+
+@dataclass(frozen=True, eq=False)
+class FreeSpace:
+    """The pieces of the plane that are free, and those of the outside."""
+
+    tessellation: Tessellation  # mended: no chord is narrower than a gap
+    inside: NDArray[np.bool_]  # (p,)
+    outside: NDArray[np.bool_]  # (p,) what is neither is solid
+    diagonal: float  # of the drawing [drawing units]
+
+    @property
+    def region(self) -> shapely.Geometry:
+        """All free space as one polygon or several."""
+        return shapely.union_all(self.tessellation.pieces[self.inside])
+
+
+def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
+    """Find the free space of a drawing.
+
+    Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
+    without passing an opening narrower than `outer_opening`. Raises ValueError if nothing is
+    enclosed.
+    """
+    strokes = [stroke for stroke in significant(sketch, settings.blob) if len(stroke) > 1]
+    simplified = simplify_all(strokes, Simplification(settings.detail * sketch.diagonal))
+    found = within_contours(simplified) if sketch.contours else within_strokes(simplified, sketch, settings)
+    if not found.inside.any():
+        raise ValueError("a drawing must enclose free space, this one encloses none: no closed room")
+    return found
+
+
+def significant(sketch: SchematicMap, blob: float) -> list[Polyline]:
+    """Leave out groups of touching strokes that are smaller than a blob; keep all if all are."""
+    lines = shapely.linestrings
+    drawn = np.array([lines(stroke.ring) for stroke in sketch.strokes])
+    groups = np.arange(len(drawn))
+    for first, second in zip(*shapely.STRtree(drawn).query(drawn, predicate="intersects"), strict=True):
+        groups[groups == groups[second]] = groups[first]
+    kept = []
+    for group in np.unique(groups):
+        left, bottom, right, top = shapely.total_bounds(drawn[groups == group])
+        if np.hypot(right - left, top - bottom) >= blob * sketch.diagonal:
+            kept.append(group)
+    return [stroke for stroke, group in zip(sketch.strokes, groups, strict=True) if group in kept] or list(
+        sketch.strokes
+    )
+
+
+def segments_of(strokes: tuple[Polyline, ...]) -> Array:
+    """List all segments of strokes, (n, 4)."""
+    return np.vstack([np.hstack([stroke.ring[:-1], stroke.ring[1:]]) for stroke in strokes])
+
+
+def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
+    """Take what closed contours enclose by the even-odd rule; all else is solid, nothing outside."""
+    walls = segments_of(strokes)
+    tessellation = tessellate(walls)
+    rings = shapely.linestrings([stroke.ring for stroke in strokes if stroke.closed])
+    region = shapely.build_area(shapely.multilinestrings(rings))
+    inside = shapely.contains_properly(region, shapely.point_on_surface(tessellation.pieces))
+    diagonal = float(np.hypot(*np.ptp(walls.reshape(-1, 2), axis=0)))
+    return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool), diagonal)
+
+
+def within_strokes(
+    strokes: tuple[Polyline, ...], sketch: SchematicMap, settings: FreeSpaceSettings
+) -> FreeSpace:
+    """Take what strokes enclose, openings to the outside closed and gaps mended."""
+    diagonal = sketch.diagonal
+    framed = tessellate(np.vstack([segments_of(strokes), frame_around(sketch)]))
+    mended = framed.with_chords(framed.widths >= settings.gap * diagonal)
+    outside = find_outside(mended, settings.outer_opening * diagonal)
+    slits = mended.reaches < settings.gap * diagonal
+    return FreeSpace(mended, ~outside & ~slits, outside, diagonal)
+
+
+def frame_around(sketch: SchematicMap) -> Array:
+    """Draw a box around the drawing, (4, 4)."""
+    left, bottom, right, top = sketch.bounds
+    margin = FRAME * sketch.diagonal
+    corners = np.array(
+        [
+            [left - margin, bottom - margin],
+            [right + margin, bottom - margin],
+            [right + margin, top + margin],
+            [left - margin, top + margin],
+        ]
+    )
+    return np.hstack([corners, np.roll(corners, -1, axis=0)])
+
+
+def find_outside(tessellation: Tessellation, wide: float) -> NDArray[np.bool_]:
+    """Flood from the frame through all openings at least this wide, (p,)."""
+    bounds = shapely.bounds(tessellation.pieces)
+    box = shapely.total_bounds(tessellation.pieces)
+    at_frame = np.isclose(bounds, box).any(axis=1)
+    passable = tessellation.with_chords(tessellation.widths >= wide)
+    parts = passable.connected(np.ones(len(bounds), dtype=bool))
+    return np.isin(parts, parts[at_frame])

@@ -1,0 +1,115 @@
+"""Merge pieces across weak openings until what is left is what a person would name."""
+
+import heapq
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array
+from pilotage.maps.tessellation import Tessellation
+
+
+@dataclass(frozen=True, slots=True)
+class MergeSettings:
+    """When an opening separates two cells: it narrows both, or it is the mouth of something deep."""
+
+    narrowing: float = 1.5  # both sides are this many times as wide as the opening: a door
+    mouth: float = 1.6  # or one side is this many times as wide as the opening ...
+    depth: float = 0.4  # ... and the smaller has this area, in squares over the opening
+    least_area: float = 0.001  # and no cell is smaller than this share of all free space
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("narrowing", "mouth", "depth", "least_area"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+
+
+class Regions:
+    """Growing regions of pieces, and the chords that lie between each two."""
+
+    def __init__(self, tessellation: Tessellation, among: NDArray[np.bool_]) -> None:
+        self.reaches: list[float] = tessellation.reaches.tolist()
+        self.areas: list[float] = tessellation.areas.tolist()
+        self.widths: list[float] = tessellation.widths.tolist()
+        self.region_of = np.where(among, np.arange(len(among)), -1)
+        self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
+        self.age = [0] * len(among)
+        for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
+            first, second = tessellation.sides[chord].tolist()
+            self.chords_to[first].setdefault(second, []).append(int(chord))
+            self.chords_to[second].setdefault(first, []).append(int(chord))
+
+    def strength(self, first: int, second: int, total: float, settings: MergeSettings) -> float:
+        """Tell how much the openings between two regions separate them; below 1 too little."""
+        smaller = min(self.areas[first], self.areas[second])
+        least = settings.least_area * total
+        if smaller < least:
+            return smaller / least
+        opening = sum(self.widths[chord] for chord in self.chords_to[first][second])
+        narrow, wide = sorted((self.reaches[first], self.reaches[second]))
+        narrowing = narrow / opening / settings.narrowing
+        mouth = wide / opening / settings.mouth
+        depth = smaller / opening**2 / settings.depth
+        return max(narrowing, min(mouth, depth))
+
+    def absorb(self, first: int, second: int) -> None:
+        """Let the first region take in the second."""
+        self.region_of[self.region_of == second] = first
+        self.reaches[first] = max(self.reaches[first], self.reaches[second])
+        self.areas[first] += self.areas[second]
+        for other, chords in self.chords_to[second].items():
+            del self.chords_to[other][second]
+            if other != first:
+                shared = self.chords_to[first].setdefault(other, [])
+                shared.extend(chords)
+                self.chords_to[other][first] = shared
+        self.chords_to[second] = {}
+        self.age[first] += 1 + self.age[second]
+        self.age[second] = -1
+
+
+def merge_pieces(
+    tessellation: Tessellation, among: NDArray[np.bool_], settings: MergeSettings
+) -> NDArray[np.int64]:
+    """Merge pieces, the weakest opening first, and tell the region of each, (p,); -1 for the rest."""
+    regions = Regions(tessellation, among)
+    total = float(tessellation.areas[among].sum())
+    queue: list[tuple[float, int, int, int]] = []
+
+    def consider(first: int, second: int) -> None:
+        strength = regions.strength(first, second, total, settings)
+        if strength < 1.0:
+            low, high = sorted((first, second))
+            heapq.heappush(queue, (strength, low, high, regions.age[low] + regions.age[high]))
+
+    for first in range(len(among)):
+        for second in regions.chords_to[first]:
+            if first < second:
+                consider(first, second)
+    while queue:
+        _, first, second, age = heapq.heappop(queue)
+        ages = (regions.age[first], regions.age[second])
+        if min(ages) < 0 or sum(ages) != age:
+            continue
+        regions.absorb(first, second)
+        for other in regions.chords_to[first]:
+            consider(first, other)
+    return np.asarray(regions.region_of, dtype=np.int64)
+
+
+def drop_small(
+    tessellation: Tessellation, regions: NDArray[np.int64], least_area: float
+) -> NDArray[np.int64]:
+    """Give up regions that are still too small because nothing opens to them: -1."""
+    areas = region_areas(tessellation, regions)
+    numbers = np.flatnonzero(areas > 0.0)
+    small = numbers[areas[numbers] < least_area * areas.sum()]
+    return np.where(np.isin(regions, small), -1, regions)
+
+
+def region_areas(tessellation: Tessellation, regions: NDArray[np.int64]) -> Array:
+    """Sum the area of each region, indexed by its number."""
+    kept = regions >= 0
+    return np.bincount(regions[kept], tessellation.areas[kept], minlength=len(regions)).astype(np.float64)

@@ -1,0 +1,216 @@
+import itertools
+import math
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pilotage.geometry import Polyline, Pose2, Similarity2
+from pilotage.io.maps import open_map
+from pilotage.maps import CellGraph, CellSize, DecompositionSettings, Label, SchematicMap, decompose
+
+SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
+
+
+def drawing(*strokes, labels=()):
+    return SchematicMap(tuple(Polyline.through(stroke) for stroke in strokes), labels=labels)
+
+
+def decomposed(*strokes, labels=()):
+    return decompose(drawing(*strokes, labels=labels), DecompositionSettings())
+
+
+BOX = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
+TWO_ROOMS = (BOX, [(5, 0), (5, 2)], [(5, 3), (5, 5)])
+CORRIDOR_AND_FOUR_ROOMS = (
+    [(0, 0), (20, 0), (20, 12), (0, 12), (0, 0)],
+    [(10, 0), (10, 5)],
+    [(10, 7), (10, 12)],
+    [(0, 5), (4, 5)],
+    [(5, 5), (14, 5)],
+    [(15, 5), (20, 5)],
+    [(0, 7), (4, 7)],
+    [(5, 7), (14, 7)],
+    [(15, 7), (20, 7)],
+)
+L_CORRIDOR = ([(0, 0), (12, 0), (12, 10), (10, 10), (10, 2), (0, 2), (0, 0)],)
+OFFICE = (*CORRIDOR_AND_FOUR_ROOMS, [(20, 0), (26, 0), (26, 5.5)], [(26, 6.5), (26, 12), (20, 12)])
+
+
+def test_two_rooms_and_a_door_are_two_cells_and_a_gateway():
+    graph = decomposed(*TWO_ROOMS)
+
+    assert 2 == len(graph.cells)
+    assert 1 == len(graph.gateways)
+    assert pytest.approx(1.0) == graph.gateways[0].width
+    assert [5.0, 2.5] == pytest.approx(graph.gateways[0].middle, abs=1e-4)
+
+
+def test_a_corridor_and_four_rooms_hang_together_like_a_star():
+    graph = decomposed(*CORRIDOR_AND_FOUR_ROOMS)
+    corridor = graph.cell_at((10.0, 6.0))
+
+    assert 5 == len(graph.cells)
+    assert 4 == len(graph.gateways)
+    assert all(corridor in gateway.cell_ids for gateway in graph.gateways)
+
+
+def test_a_corridor_round_a_corner_is_one_cell():
+    assert 1 == len(decomposed(*L_CORRIDOR).cells)
+
+
+def test_a_hall_and_the_corridor_that_opens_into_it_are_two_cells():
+    hall_and_corridor = [(0, 0), (8, 0), (8, 3), (20, 3), (20, 5), (8, 5), (8, 8), (0, 8), (0, 0)]
+
+    assert 2 == len(decomposed(hall_and_corridor).cells)
+
+
+def test_an_unclosed_corner_is_mended_and_a_door_is_not():
+    ragged = [(0.05, 0), (10, 0), (10, 5), (0, 5), (0, 0.05)]
+    graph = decomposed(ragged, [(5, 0.06), (5, 2)], [(5, 3), (5, 5.2)])
+
+    assert 2 == len(graph.cells)
+    assert 1 == len(graph.gateways)
+
+
+def test_an_opening_in_the_outer_wall_does_not_let_the_outside_in():
+    graph = decomposed([(5, 0), (10, 0), (10, 5), (0, 5), (0, 0), (4, 0)], [(5, 0), (5, 2)], [(5, 3), (5, 5)])
+
+    assert 2 == len(graph.cells)
+    assert pytest.approx(50.0, rel=1e-3) == sum(cell.polygon.area for cell in graph.cells)
+
+
+def test_a_block_that_a_corridor_runs_around_is_solid():
+    graph = decomposed(BOX, [(2, 1.5), (8, 1.5), (8, 3.5), (2, 3.5), (2, 1.5)])
+
+    assert 1 == len(graph.cells)
+    assert 1 == len(graph.cells[0].holes)
+
+
+def test_words_name_the_cell_in_which_they_stand():
+    graph = decomposed(*TWO_ROOMS, labels=(Label("kitchen", (2.0, 2.0)), Label("outside", (-5.0, 0.0))))
+
+    assert "kitchen" == graph.cell(graph.cell_at((1.0, 1.0))).label
+    assert "" == graph.cell(graph.cell_at((9.0, 1.0))).label
+
+
+def test_sizes_are_relative_to_the_drawing():
+    graph = decomposed(*CORRIDOR_AND_FOUR_ROOMS)
+
+    assert Counter({CellSize.MEDIUM: 4, CellSize.LARGE: 1}) == Counter(cell.size for cell in graph.cells)
+
+
+def test_a_cell_is_defined_everywhere():
+    graph = decomposed(*TWO_ROOMS)
+
+    assert graph.cell_at((1.0, 1.0)) == graph.cell_at((-100.0, 2.5))
+    assert graph.cell_at((9.0, 1.0)) == graph.cell_at((100.0, 2.5))
+
+
+def test_neighbors_tell_the_way_through_each_gateway():
+    graph = decomposed(*TWO_ROOMS)
+    left, right = graph.cell_at((1.0, 1.0)), graph.cell_at((9.0, 1.0))
+
+    (neighbor,) = graph.neighbors(left)
+
+    assert right == neighbor.cell_id
+    assert pytest.approx(0.0, abs=0.1) == neighbor.direction
+    assert pytest.approx(2.5 / math.hypot(10, 5), rel=0.1) == neighbor.distance
+
+
+def test_a_drawing_that_encloses_nothing_is_refused():
+    with pytest.raises(ValueError, match="encloses none"):
+        decomposed([(0, 0), (10, 0)], [(0, 5), (10, 5)])
+
+
+@st.composite
+def similarities(draw):
+    angle = draw(st.floats(-math.pi, math.pi))
+    scale = draw(st.floats(0.01, 100.0))
+    shift = draw(st.tuples(st.floats(-100, 100), st.floats(-100, 100)))
+    return Similarity2(scale, Pose2(*shift, angle))
+
+
+@settings(deadline=None, max_examples=40)
+@given(similarities())
+def test_turning_and_scaling_the_drawing_changes_nothing_but_coordinates(b_from_a):
+    graph = decomposed(*OFFICE)
+    moved = decompose(
+        SchematicMap(tuple(stroke.moved(b_from_a) for stroke in drawing(*OFFICE).strokes)),
+        DecompositionSettings(),
+    )
+
+    assert len(graph.cells) == len(moved.cells)
+    assert len(graph.gateways) == len(moved.gateways)
+    for cell in graph.cells:
+        center = b_from_a @ np.array([cell.center])
+        twin = moved.cell(moved.cell_at(tuple(center[0])))
+        assert pytest.approx(cell.polygon.area * b_from_a.scale**2, rel=1e-3) == twin.polygon.area
+        assert len(graph.neighbors(cell.cell_id)) == len(moved.neighbors(twin.cell_id))
+
+
+def assert_sound(graph: CellGraph) -> None:
+    polygons = np.array([cell.polygon for cell in graph.cells])
+    tolerance = 1e-5 * graph.diagonal
+    assert shapely.is_valid(polygons).all()
+    assert shapely.union_all(polygons).area == pytest.approx(shapely.area(polygons).sum(), rel=1e-6)
+    for gateway in graph.gateways:
+        line = shapely.LineString(gateway.segment)
+        touching = {
+            cell.cell_id
+            for cell in graph.cells
+            if cell.polygon.distance(shapely.Point(gateway.middle)) < tolerance
+        }
+        assert set(gateway.cell_ids) == touching
+        assert line.length > 0.0
+
+
+@st.composite
+def floors(draw):
+    """Boxes of rooms in rows, with a door in some of the walls."""
+    columns, rows = draw(st.integers(1, 4)), draw(st.integers(1, 3))
+    xs = np.cumsum([0.0] + [draw(st.floats(3.0, 9.0)) for _ in range(columns)])
+    ys = np.cumsum([0.0] + [draw(st.floats(3.0, 9.0)) for _ in range(rows)])
+    strokes = [[(xs[0], ys[0]), (xs[-1], ys[0]), (xs[-1], ys[-1]), (xs[0], ys[-1]), (xs[0], ys[0])]]
+    walls = [((x, y0), (x, y1)) for x in xs[1:-1] for y0, y1 in itertools.pairwise(ys)]
+    walls += [((x0, y), (x1, y)) for y in ys[1:-1] for x0, x1 in itertools.pairwise(xs)]
+    for first, last in walls:
+        start, stop = np.array(first), np.array(last)
+        along = (stop - start) / np.hypot(*(stop - start))
+        door = start + draw(st.floats(0.6, 1.4)) * along
+        strokes += [[first, tuple(door)], [tuple(door + draw(st.floats(0.7, 1.0)) * along), last]]
+    return strokes
+
+
+@settings(deadline=None, max_examples=60)
+@given(floors())
+def test_cells_do_not_overlap_and_gateways_border_their_two_cells(strokes):
+    graph = decomposed(*strokes)
+    box = shapely.box(*drawing(*strokes).bounds)
+
+    assert_sound(graph)
+    assert pytest.approx(box.area, rel=1e-3) == sum(cell.polygon.area for cell in graph.cells)
+
+
+def test_the_same_drawing_gives_the_same_cells():
+    once, twice = decomposed(*OFFICE), decomposed(*OFFICE)
+
+    assert [cell.outline.tolist() for cell in once.cells] == [cell.outline.tolist() for cell in twice.cells]
+    assert [gate.segment.tolist() for gate in once.gateways] == [
+        gate.segment.tolist() for gate in twice.gateways
+    ]
+
+
+@pytest.mark.skipif(not SHARED.exists(), reason="the shared drawings are not here")
+@pytest.mark.parametrize(
+    "name", ["aces/draftsman", "belgioioso/quick", "csail/schematic", "freiburg-079/quick"]
+)
+def test_drawn_buildings_fall_into_sound_cells(name):
+    graph = decompose(open_map(SHARED / "sketches" / f"{name}.svg"), DecompositionSettings())
+
+    assert_sound(graph)
+    assert 10 <= len(graph.cells) <= 30
