@@ -1,1 +1,117 @@
-"""Settings of every stage, nested."""
+"""Settings of all stages in one nested value, read from TOML; unknown names are refused."""
+
+import difflib
+import tomllib
+import types
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from pilotage.errors import FileError, SettingsError
+from pilotage.localization import LocalizerSettings
+from pilotage.simulation import RunSettings
+
+Kind = TypeVar("Kind")
+
+PLAIN = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Every default is sane: a file needs to name only what it changes."""
+
+    localizer: LocalizerSettings = field(default_factory=LocalizerSettings)
+    simulation: RunSettings = field(default_factory=RunSettings)
+
+
+def read_settings(path: Path | str) -> Settings:
+    """Read settings from a TOML file.
+
+    Raises FileError if it cannot be read, SettingsError if it holds an unknown name or an impossible value.
+    """
+    try:
+        content = Path(path).read_bytes().decode()
+    except FileNotFoundError as error:
+        raise FileError("there is no such file", path) from error
+    except OSError as error:
+        raise FileError(f"the file cannot be opened ({error.strerror})", path) from error
+    except UnicodeDecodeError as error:
+        raise FileError("a settings file must be UTF-8 text", path) from error
+    try:
+        return settings_from(tomllib.loads(content))
+    except tomllib.TOMLDecodeError as error:
+        raise FileError(f"a settings file must be TOML ({error})", path) from error
+    except SettingsError as error:
+        raise SettingsError(f"{error}: {path}") from error
+
+
+def settings_from(tree: Mapping[str, object]) -> Settings:
+    """Build settings from nested tables."""
+    return build(Settings, tree, "")
+
+
+def build(kind: type[Kind], tree: Mapping[str, object], name: str) -> Kind:
+    """Build one frozen dataclass from a table of this name; fields that are not named keep their defaults."""
+    hints = get_type_hints(kind)
+    known = [one.name for one in fields(kind)]  # type: ignore[arg-type]
+    for key in tree:
+        if key not in known:
+            raise SettingsError(unknown(key, known, name))
+    values = {key: converted(hints[key], value, f"{name}{key}") for key, value in tree.items()}
+    try:
+        return kind(**values)
+    except SettingsError:
+        raise
+    except (TypeError, ValueError) as error:
+        raise SettingsError(f"setting {name.rstrip('.') or 'file'}: {error}") from error
+
+
+def unknown(key: str, known: list[str], name: str) -> str:
+    """Say that a name is unknown, and which one may have been meant."""
+    near = difflib.get_close_matches(key, known, n=1, cutoff=0.0)
+    hint = f", the nearest known one is {name}{near[0]}" if near else ""
+    return f"unknown setting {name}{key}{hint}"
+
+
+def converted(hint: Any, value: object, name: str) -> object:  # noqa: ANN401  # a type as annotations have it
+    """Check a value against an annotation, and convert it."""
+    if get_origin(hint) in (Union, types.UnionType):
+        return converted(next(kind for kind in get_args(hint) if kind is not types.NoneType), value, name)
+    if get_origin(hint) is tuple:
+        return converted_list(get_args(hint), value, name)
+    if is_dataclass(hint):
+        if not isinstance(value, Mapping):
+            raise SettingsError(f"setting {name} must be a table, got {value!r}")
+        return build(hint, value, f"{name}.")  # type: ignore[arg-type]
+    if isinstance(hint, type) and issubclass(hint, Enum):
+        return chosen(hint, value, name)
+    if hint is float and isinstance(value, int) and not isinstance(value, bool):
+        return float(value)
+    if hint not in PLAIN or type(value) is not hint:
+        raise SettingsError(f"setting {name} must be {PLAIN.get(hint, hint)}, got {value!r}")
+    return value
+
+
+def converted_list(kinds: tuple[Any, ...], value: object, name: str) -> tuple[object, ...]:
+    """Check an array against `tuple[kind, ...]` or `tuple[first, second]`."""
+    if not isinstance(value, list):
+        raise SettingsError(f"setting {name} must be an array, got {value!r}")
+    if len(kinds) == 2 and kinds[1] is Ellipsis:
+        kinds = (kinds[0],) * len(value)
+    if len(kinds) != len(value):
+        raise SettingsError(f"setting {name} must hold {len(kinds)} values, got {len(value)}")
+    return tuple(
+        converted(kind, one, f"{name}[{k}]") for k, (kind, one) in enumerate(zip(kinds, value, strict=True))
+    )
+
+
+def chosen(hint: type[Enum], value: object, name: str) -> Enum:
+    """Find the member of an enumeration by its value."""
+    for member in hint:
+        if member.value == value:
+            return member
+    raise SettingsError(
+        f"setting {name} must be one of {', '.join(str(m.value) for m in hint)}, got {value!r}"
+    )

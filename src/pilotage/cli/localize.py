@@ -1,0 +1,89 @@
+"""`pilotage localize`: where the robot is on the drawing, scan by scan."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
+from pilotage.cli.terminal import refuse_existing, say
+
+if TYPE_CHECKING:
+    from pilotage.geometry import Pose2
+    from pilotage.maps import SchematicMap
+
+
+def localize(
+    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing of the building (SVG).")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
+    *,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Where to write the estimates; without it, to standard output."),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option(help="Where to draw the path on the drawing (.png, .svg, .pdf).")
+    ] = None,
+    first: Annotated[int, typer.Option("--from", min=0, help="First scan to use, counted from 0.")] = 0,
+    last: Annotated[
+        int | None,
+        typer.Option("--to", min=1, help="Scan to stop before.", show_default="the end of the log"),
+    ] = None,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,HEADING_DEG",
+            help="Where the robot starts, in the drawing's own coordinates; the heading in degrees, "
+            "counter-clockwise on the page from its x axis.",
+        ),
+    ] = None,
+    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+) -> None:
+    """Tell for every scan of a log where on the drawing the robot was.
+
+    The drawing needs no scale and no start. Estimates are JSON Lines, one object a scan:
+    *status* located or lost, the *cell* it is in, *x* and
+    *y* in the drawing's own units and axes (in SVG, y points down), *heading*
+    in radians counter-clockwise on the page, *scale* in drawing units per metre,
+    *confidence* from 0 to 1, and the *hypotheses* it holds.
+
+    **Examples:**
+
+    - `pilotage localize office.svg run.log.gz -o out.jsonl --figure where.png`
+    - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
+    """
+    refuse_existing([output, figure], force=force)
+    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
+        raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
+    from pilotage.io import open_map
+
+    sketch = open_map(drawing)
+    readings = read_stretch(log, first, last)
+    localizer = open_localizer(sketch, settings, seed, parse_start(start, sketch), scale)
+    with estimates_sink(output, sketch) as write:
+        estimates = run(localizer, readings, write)
+    if figure is not None:
+        draw(sketch, estimates, readings, figure, title=f"{log.name} in {drawing.name}")
+    say(summary(estimates))
+
+
+def parse_start(text: str | None, sketch: "SchematicMap") -> "Pose2 | None":
+    """Read `X,Y,HEADING_DEG` in the axes of the drawing's file."""
+    if text is None:
+        return None
+    import numpy as np
+
+    from pilotage.geometry import Pose2
+
+    try:
+        x, y, heading_deg = (float(word) for word in text.split(","))
+        position = sketch.sketch_from_file(np.array([[x, y]]))[0]
+        return Pose2(float(position[0]), float(position[1]), math.radians(heading_deg))
+    except ValueError as error:
+        raise typer.BadParameter(
+            f"a start must be three numbers X,Y,HEADING_DEG, got {text!r}", param_hint="--start"
+        ) from error

@@ -1,0 +1,45 @@
+"""`pilotage simplify`: what is left of a drawing once its noise is gone."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pilotage.cli.terminal import refuse_existing, say
+
+SHARE = 0.0025
+"""Relevance below which a vertex goes, as a share of the drawing's diagonal."""
+
+
+def simplify(
+    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing (SVG).")],
+    *,
+    share: Annotated[
+        float,
+        typer.Option(min=0.0, help="Vertices less relevant than this share of the drawing's diagonal go."),
+    ] = SHARE,
+    figure: Annotated[
+        Path | None, typer.Option(help="Where to draw it before and after (.png, .svg, .pdf).")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+) -> None:
+    """Simplify a drawing by discrete curve evolution (Wolter 2001, section 2.2; figure 1).
+
+    The least relevant vertex is deleted again and again; ends stay, and no stroke comes to cross another.
+
+    **Example:** `pilotage simplify office.svg --figure evolution.png`
+    """
+    refuse_existing([figure], force=force)
+    from pilotage.io import open_map
+    from pilotage.shape import Simplification, simplify_all
+
+    sketch = open_map(drawing)
+    evolved = simplify_all(sketch.strokes, Simplification(share * sketch.diagonal))
+    before, after = (sum(len(stroke) for stroke in strokes) for strokes in (sketch.strokes, evolved))
+    typer.echo(f"{len(sketch.strokes)} strokes, {before} vertices; after evolution {after}")
+    if figure is not None:
+        from pilotage.figures.drawing import drawing_figure
+        from pilotage.figures.style import save
+
+        save(drawing_figure(sketch, evolved), figure)
+        say(f"drawn in {figure}")

@@ -1,0 +1,109 @@
+"""What all figures share: ink, paper, and a pen that needs no screen."""
+
+import math
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from pilotage.errors import FileError
+from pilotage.geometry import Array, Pose2
+from pilotage.io.files import replacing
+
+INK = "#20262e"
+GRAY = "#8b939e"
+PALE = "#e6e9ed"
+TRAIL = "#1f6f8b"
+ACCENT = "#d1495b"
+
+CONFIDENCE: Colormap = LinearSegmentedColormap.from_list("confidence", ["#f2b134", "#5fa777", "#12587a"])
+"""From doubt to certainty."""
+RELEVANCE: Colormap = LinearSegmentedColormap.from_list(
+    "relevance", ["#f6d9a8", "#e07a3f", "#8c2d2d", "#2b0f1e"]
+)
+"""Darker is more relevant, as in the paper."""
+
+DPI = 160
+MOST_EXTREME = 8.0  # of the proportions of a picture
+SMALL, TEXT, TITLE = 8.5, 10.0, 12.0  # [points]
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Open a sheet of paper [inches]."""
+    figure = Figure(figsize=(width, height), facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def place(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
+    """Open axes at a place on the sheet, counted from its lower left corner [inches]."""
+    page_width, page_height = figure.get_size_inches()
+    return figure.add_axes(
+        (left / page_width, bottom / page_height, width / page_width, height / page_height)
+    )
+
+
+def bare(axes: Axes, title: str = "") -> None:
+    """Take away all that is not the picture, and keep its proportions."""
+    axes.set_aspect("equal")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.spines[:].set_visible(False)
+    if title:
+        axes.set_title(title, fontsize=TITLE, color=INK, loc="left", pad=8)
+
+
+def frame(axes: Axes, low: Array, high: Array, margin: float = 0.04) -> None:
+    """Show a box, given by two corners (2,), with some air around it."""
+    air = margin * max(high - low)
+    axes.set_xlim(low[0] - air, high[0] + air)
+    axes.set_ylim(low[1] - air, high[1] + air)
+
+
+def draw_robot(axes: Axes, pose: Pose2, size: float, color: str = ACCENT) -> None:
+    """Draw the robot as an arrowhead that points where it looks; size [axes' units] from tail to tip."""
+    outline = size * (pose.rotation @ [[0.6, -0.4, -0.2, -0.4], [0.0, 0.36, 0.0, -0.36]]).T + pose.position
+    axes.fill(*outline.T, facecolor=color, edgecolor="white", linewidth=1.0, joinstyle="round", zorder=10)
+
+
+def draw_scale_bar(axes: Axes, length: float, text: str) -> None:
+    """Draw a bar of this length [axes' units] under the lower left corner."""
+    left, _ = axes.get_xlim()
+    bar = axes.plot([left, left + length], [-0.03, -0.03], color=INK, linewidth=2.0, solid_capstyle="butt")[0]
+    bar.set_transform(axes.get_xaxis_transform())
+    bar.set_clip_on(False)
+    axes.annotate(
+        text, (left + length, -0.03), (6, 0), xycoords=axes.get_xaxis_transform(), textcoords="offset points",
+        va="center", fontsize=SMALL, color=INK, annotation_clip=False,
+    )  # fmt: skip
+
+
+def proportion(width: float, height: float) -> float:
+    """Return height over width, but none so extreme that no sheet would hold it.
+
+    >>> proportion(2.0, 1.0), proportion(0.0, 1.0)
+    (0.5, 8.0)
+    """
+    return min(max(height, width / MOST_EXTREME) / max(width, height / MOST_EXTREME), MOST_EXTREME)
+
+
+def round_length(length: float) -> float:
+    """Round down to 1, 2 or 5 times a power of ten.
+
+    >>> round_length(0.37), round_length(7.9)
+    (0.2, 5.0)
+    """
+    power = 10.0 ** math.floor(math.log10(length))
+    return power * next(step for step in (5.0, 2.0, 1.0) if step * power <= length)
+
+
+def save(figure: Figure, path: Path | str) -> None:
+    """Write a figure whole or not at all; the name's ending tells the format (png, svg, pdf)."""
+    known = figure.canvas.get_supported_filetypes()
+    kind = Path(path).suffix.lstrip(".").lower()
+    if kind not in known:
+        raise FileError("a figure's name must end in .png, .svg or .pdf", path)
+    with replacing(path) as beside:
+        figure.savefig(beside, format=kind, dpi=DPI)

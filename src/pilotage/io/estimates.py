@@ -1,0 +1,64 @@
+"""Write estimates as JSON Lines, one object a scan, in the drawing's own units and axes."""
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+
+from pilotage.geometry import Similarity2
+from pilotage.io.files import replacing
+from pilotage.localization import Estimate
+from pilotage.maps import SchematicMap
+
+DECIMALS = 6
+"""Of positions [drawing units], headings [rad] and shares: finer than any drawing or laser."""
+
+
+def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, object]:
+    """Return an estimate as a line of the file holds it.
+
+    `x` and `y` are in the axes of the drawing's file (for SVG y down); `heading` is counter-clockwise on the
+    page from its x axis [rad]; `scale` is in drawing units per metre.
+    """
+    return {
+        "stamp": estimate.stamp,
+        "status": estimate.status.value,
+        "cell": estimate.cell_id,
+        **place_record(estimate.sketch_from_base, sketch),
+        "confidence": round(estimate.confidence, DECIMALS),
+        "hypotheses": [
+            {
+                "cell": hypothesis.cell_id,
+                **place_record(hypothesis.sketch_from_base, sketch),
+                "probability": round(hypothesis.probability, DECIMALS),
+            }
+            for hypothesis in estimate.hypotheses
+        ],
+    }
+
+
+def place_record(sketch_from_base: Similarity2, sketch: SchematicMap) -> dict[str, float]:
+    """Return a place and a scale in the axes of the drawing's file."""
+    pose = sketch_from_base.pose
+    x, y = sketch.file_from_sketch(np.array([pose.position]))[0]
+    return {
+        "x": round(float(x), DECIMALS),
+        "y": round(float(y), DECIMALS),
+        "heading": round(pose.theta, DECIMALS),
+        "scale": round(sketch_from_base.scale, DECIMALS),
+    }
+
+
+@contextmanager
+def estimates_file(path: Path | str, sketch: SchematicMap) -> Iterator[Callable[[Estimate], None]]:
+    """Open a file for estimates; it appears whole when the block ends, and not at all if the block fails."""
+    with replacing(path) as beside, beside.open("w", encoding="utf-8") as file:
+        yield lambda estimate: write_estimate(file, estimate, sketch)
+
+
+def write_estimate(file: TextIO, estimate: Estimate, sketch: SchematicMap) -> None:
+    """Write one line."""
+    file.write(json.dumps(estimate_record(estimate, sketch), allow_nan=False) + "\n")

@@ -1,0 +1,28 @@
+"""Run the command line inside the test."""
+
+import sys
+from typing import NamedTuple
+
+import pytest
+
+from pilotage.cli import main
+
+
+class Outcome(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def pilotage(monkeypatch, capsys):
+    """Call `pilotage` with these words and tell its exit code and what it wrote."""
+
+    def call(*words):
+        monkeypatch.setattr(sys, "argv", ["pilotage", *map(str, words)])
+        with pytest.raises(SystemExit) as caught:
+            main()
+        captured = capsys.readouterr()
+        return Outcome(caught.value.code or 0, captured.out, captured.err)
+
+    return call

@@ -1,0 +1,162 @@
+"""What a user types, and what comes back."""
+
+import subprocess
+import sys
+
+import pytest
+
+from pilotage import demo
+
+COMMANDS = ("demo", "localize", "perceive", "simplify")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_teaches_with_an_example(pilotage, command):
+    outcome = pilotage(command, "--help")
+
+    assert 0 == outcome.code
+    assert "Example" in outcome.out
+    assert f"pilotage {command}" in outcome.out
+
+
+def test_help_lists_the_commands(pilotage):
+    outcome = pilotage("--help")
+
+    assert all(command in outcome.out for command in COMMANDS)
+
+
+def test_version_is_told(pilotage):
+    assert pilotage("--version").out.startswith("pilotage ")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("fly",),
+        ("localize",),
+        ("localize", "a.svg"),
+        ("perceive", "run.log", "--scan", "-1"),
+        ("demo", "--seed", "x"),
+    ],
+)
+def test_a_wrong_call_is_exit_code_2(pilotage, words):
+    outcome = pilotage(*words)
+
+    assert 2 == outcome.code
+    assert "" == outcome.out
+    assert "Traceback" not in outcome.err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--help",), ("--version",), ("localize", "--help"), ("demo", "--help"), ("simplify", demo.SKETCH)],
+)
+def test_light_commands_load_nothing_heavy(words):
+    code = (
+        f"import sys; sys.argv = ['pilotage', *{[str(word) for word in words]!r}]\n"
+        "from pilotage.cli import main\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        "print('HEAVY', [name for name in ('numba', 'matplotlib', 'scipy') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+
+    assert "HEAVY []" == done.stdout.splitlines()[-1]
+
+
+def test_importing_the_package_loads_no_library():
+    heavy = ("numba", "numpy", "shapely", "typer")
+    code = f"import sys, pilotage\nprint([name for name in {heavy} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+
+    assert "[]" == done.stdout.strip()
+
+
+def test_perceive_lists_the_shapes_of_a_scan_and_draws_them(pilotage, tmp_path):
+    figure = tmp_path / "scan.png"
+    outcome = pilotage("perceive", demo.LOG, "--scan", 110, "--figure", figure)
+    lines = outcome.out.splitlines()
+
+    assert 0 == outcome.code
+    assert lines[0].startswith("scan 110 of 292 at ")
+    assert f"{len(lines) - 1} shapes" in lines[0]
+    assert figure.read_bytes().startswith(b"\x89PNG")
+
+
+def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
+    outcome = pilotage("simplify", demo.SKETCH, "--figure", tmp_path / "evolution.svg")
+    words = outcome.out.split()
+
+    assert 0 == outcome.code
+    assert int(words[-1]) < int(words[2])
+    assert b"<svg" in (tmp_path / "evolution.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("words", "rule"),
+    [
+        (("perceive", "nowhere.log"), "there is no such file"),
+        (("simplify", "nowhere.svg"), "there is no such file"),
+        (("perceive", demo.SKETCH), "no CARMEN log"),
+        (("simplify", demo.LOG), "well-formed XML"),
+        (("perceive", demo.LOG, "--scan", "9999"), "scans 0 to 291"),
+        (("localize", demo.LOG, demo.SKETCH), "well-formed XML"),
+        (("localize", demo.SKETCH, demo.SKETCH), "no CARMEN log"),
+        (("localize", demo.SKETCH, demo.LOG, "--from", "500"), "none of them from 500"),
+        (("localize", demo.SKETCH, demo.LOG, "--from", "5", "--to", "5"), "none of them from 5 to 5"),
+        (("simplify", demo.SKETCH, "--figure", "evolution.doc"), "must end in .png, .svg or .pdf"),
+    ],
+)
+def test_what_goes_wrong_is_one_line_and_exit_code_1(pilotage, tmp_path, monkeypatch, words, rule):
+    monkeypatch.chdir(tmp_path)
+    outcome = pilotage(*words)
+
+    assert 1 == outcome.code
+    assert outcome.err.startswith("pilotage: error: ")
+    assert rule in outcome.err
+    assert 1 == outcome.err.count("\n")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--start", "1,2"),
+        ("--start", "here"),
+        ("--start", "1,2,nan"),
+        ("--scale", "0"),
+        ("--scale", "-3"),
+        ("--scale", "nan"),
+    ],
+)
+def test_an_impossible_start_or_scale_is_a_wrong_call(pilotage, words):
+    outcome = pilotage("localize", demo.SKETCH, demo.LOG, *words)
+
+    assert 2 == outcome.code
+    assert words[0] in outcome.err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("perceive", demo.LOG, "--figure"),
+        ("simplify", demo.SKETCH, "--figure"),
+        ("localize", demo.SKETCH, demo.LOG, "--figure"),
+        ("localize", demo.SKETCH, demo.LOG, "-o"),
+    ],
+)
+def test_no_file_is_replaced_unasked(pilotage, tmp_path, words):
+    precious = tmp_path / "precious.png"
+    precious.write_text("precious")
+    outcome = pilotage(*words, precious)
+
+    assert 1 == outcome.code
+    assert "--force replaces it" in outcome.err
+    assert "precious" == precious.read_text()
+
+
+def test_force_replaces_a_file(pilotage, tmp_path):
+    old = tmp_path / "old.png"
+    old.write_text("old")
+
+    assert 0 == pilotage("perceive", demo.LOG, "--figure", old, "--force").code
+    assert old.read_bytes().startswith(b"\x89PNG")
