@@ -37,14 +37,18 @@ def open_localizer(
     sketch: "SchematicMap", settings: Path | None, seed: int, start: "Pose2 | None", scale: float | None
 ) -> "Localizer":
     """Prepare the drawing."""
-    from pilotage.localization import Localizer
+    from pilotage.localization import Localizer, LocalizerSettings
 
-    with busy("Reading the drawing"):
-        if settings is None:
-            return Localizer(sketch, seed=seed, start=start, scale=scale)
+    chosen = LocalizerSettings()
+    if settings is not None:
         from pilotage.config import read_settings
 
-        return Localizer(sketch, read_settings(settings).localizer, seed=seed, start=start, scale=scale)
+        chosen = read_settings(settings).localizer
+    with busy("Reading the drawing"):
+        try:
+            return Localizer(sketch, chosen, seed=seed, start=start, scale=scale)
+        except ValueError as error:  # of the drawing: all else was checked before
+            raise FileError(str(error), sketch.source) from error
 
 
 @contextmanager
