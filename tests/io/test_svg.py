@@ -245,6 +245,41 @@ def test_a_sheet_of_paper_behind_the_drawing_is_no_wall(tmp_path):
     assert [[[1, 2], [3, 5]]] == in_file(drawing(tmp_path, page + white + LINE))
 
 
+@pytest.mark.parametrize("attributes", ['viewBox="0 0 100 100"', 'width="100mm" height="100mm"'])
+def test_paper_is_no_wall_even_if_a_stroke_runs_off_it(tmp_path, attributes):
+    page = '<rect x="-1" y="-1" width="400" height="400" fill="beige"/>'
+    line = '<line x1="-9" y1="2" x2="3" y2="5" stroke="black"/>'
+
+    assert [[[-9, 2], [3, 5]]] == in_file(drawing(tmp_path, page + line, attributes))
+
+
+def test_a_filled_building_on_a_page_of_unknown_size_is_a_wall(tmp_path):
+    building = '<rect x="-500" y="-500" width="900" height="900" fill="gray"/>'
+
+    assert 2 == len(drawing(tmp_path, building + LINE, "").strokes)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<circle cx="5" cy="5" {STROKE}/>',
+        f'<ellipse cx="5" cy="5" rx="3" {STROKE}/>',
+        f'<rect x="5" y="5" width="3" {STROKE}/>',
+        f'<rect width="-5" height="3" {STROKE}/>',
+        f'<path d="M0 0 M5 5" {STROKE}/>',
+        f'<path d="M5 5 Z" {STROKE}/>',
+        f"<path {STROKE}/>",
+        f'<polyline points="" {STROKE}/>',
+        f'<g transform="scale(0)"><circle cx="5" cy="5" r="3" {STROKE}/></g>',
+        f'<g transform="scale(0)"><path d="M0 0 A 5 3 10 0 1 8 8" {STROKE}/></g>',
+        '<use href="#nowhere"/>',
+        '<use href="other.svg#w"/>',
+    ],
+)
+def test_what_has_no_size_is_passed_over(tmp_path, body):
+    assert [[[1, 2], [3, 5]]] == in_file(drawing(tmp_path, body + LINE))
+
+
 def test_a_stroked_frame_and_a_filled_building_are_walls(tmp_path):
     frame = f'<rect width="100" height="100" {STROKE}/>'
     building = '<rect x="0" y="0" width="50" height="50" fill="gray"/>'

@@ -15,7 +15,7 @@ from pilotage.io.logs import read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.roles import Role
 from pilotage.io.svg.style import leading_number, local_name
-from pilotage.io.svg.tree import Drawn, Viewport, read_viewport, walk
+from pilotage.io.svg.tree import Drawn, Viewport, read_page, walk
 from pilotage.maps import Label, SchematicMap
 
 FLATNESS = 0.0005
@@ -24,7 +24,7 @@ FLATNESS = 0.0005
 GLYPH_WIDTH = 0.5
 """Mean width of a letter in font sizes: good enough to find the middle of a word."""
 
-WHITE = ("white", "#fff", "#ffffff", "rgb(255,255,255)", "rgb(255, 255, 255)")
+WHITE = svgelements.Color("white")
 
 ROUNDING = 1e-6
 """Relative error that transforms may leave in an area."""
@@ -38,6 +38,13 @@ SHAPES = {
     "polyline": svgelements.Polyline,
     "polygon": svgelements.Polygon,
 }
+
+SIZES = {
+    svgelements.Rect: ("width", "height"),
+    svgelements.Circle: ("r",),
+    svgelements.Ellipse: ("rx", "ry"),
+}
+"""Measures that must be positive for anything to be seen."""
 
 Bounds = tuple[float, float, float, float]  # left, top, right, bottom
 
@@ -58,12 +65,12 @@ def read_svg(path: Path) -> SchematicMap:
     """
     root = read_document(path)
     try:
-        viewport = read_viewport(root)
+        page = read_page(root)
         items = [item for item in walk(root) if item.style.shown]
         shapes = [shape for item in items for shape in read_shape(item)]
-    except (ValueError, IndexError, OverflowError) as error:
+    except (ValueError, IndexError, ArithmeticError) as error:
         raise FileError(f"an SVG drawing holds a value that cannot be read ({error})", path) from error
-    walls = without_background([shape for shape in shapes if shape.drawn.role is Role.WALL], viewport)
+    walls = without_background([shape for shape in shapes if shape.drawn.role is Role.WALL], page)
     strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
     if not strokes:
         raise FileError("a drawing needs at least one visible stroke, found none", path)
@@ -96,8 +103,8 @@ def read_shape(item: Drawn) -> Iterator[Shape]:
         return
     measures = dict(item.measures)
     measures.pop("transform", None)
-    if kind is svgelements.Rect:
-        measures = {"width": "0", "height": "0", **measures}
+    if any(float(measures.get(name, "0")) <= 0.0 for name in SIZES.get(kind, ())):
+        return
     if kind is svgelements.Path:
         outline = svgelements.Path(measures.get("d", ""))
     else:
@@ -109,6 +116,8 @@ def read_shape(item: Drawn) -> Iterator[Shape]:
     if len(outline) < 2:
         return
     bounds = outline.bbox()
+    if bounds is None:
+        return
     if not all(math.isfinite(bound) for bound in bounds):
         raise ValueError(f"<{local_name(item.element.tag)}> reaches beyond all numbers")
     yield Shape(item, outline, bounds)
@@ -119,18 +128,19 @@ def holds(outer: Bounds, inner: Bounds) -> bool:
     return outer[0] <= inner[0] and outer[1] <= inner[1] and outer[2] >= inner[2] and outer[3] >= inner[3]
 
 
-def without_background(walls: Sequence[Shape], viewport: Viewport) -> list[Shape]:
-    """Leave out sheets of paper: rectangles, filled but not stroked, behind all else.
+def without_background(walls: Sequence[Shape], page: Viewport | None) -> list[Shape]:
+    """Leave out sheets of paper: rectangles, filled but not stroked, below all else.
 
-    A sheet covers the whole page or is white; a colored rectangle around a part of the page is a building.
+    A sheet covers the whole page, or is white and holds all else; a colored rectangle on a part of the page
+    is a building.
     """
-    page = (viewport.x, viewport.y, viewport.x + viewport.width, viewport.y + viewport.height)
     kept = list(walls)
     while len(kept) > 1:
         first, rest = kept[0], kept[1:]
-        paper = holds(first.bounds, page) or first.drawn.style.paint("fill").lower() in WHITE
-        framing = is_box(first) and all(holds(first.bounds, other.bounds) for other in rest)
-        if first.drawn.style.stroked or not (paper and framing):
+        covering = page is not None and holds(first.bounds, page.bounds)
+        white = svgelements.Color(first.drawn.style.paint("fill")) == WHITE
+        framing = white and all(holds(first.bounds, other.bounds) for other in rest)
+        if first.drawn.style.stroked or not is_box(first) or not (covering or framing):
             break
         kept.pop(0)
     return kept

@@ -47,6 +47,11 @@ class Viewport:
     width: float
     height: float
 
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Left, top, right and bottom."""
+        return self.x, self.y, self.x + self.width, self.y + self.height
+
     def length(self, text: str, axis: int) -> float:
         """Convert a length in any unit to user units."""
         diagonal = math.hypot(self.width, self.height) / math.sqrt(2.0)  # SVG 1.1, section 7.10
@@ -79,15 +84,18 @@ class Place:
     role: Role = Role.WALL
 
 
-def read_viewport(root: Element) -> Viewport:
-    """Read the viewBox of the root, else its size; a document that tells neither has 100 by 100 units."""
+UNKNOWN_PAGE = Viewport(0.0, 0.0, 100.0, 100.0)
+"""What percentages refer to in a document that does not tell its size."""
+
+
+def read_page(root: Element) -> Viewport | None:
+    """Read the viewBox of the root, else its size; None if it tells neither."""
     box = view_box(root)
-    if box is not None:
+    sizes = root.get("width", "100%"), root.get("height", "100%")
+    if box is not None or any("%" in size or size == "auto" for size in sizes):
         return box
-    unit = Viewport(0.0, 0.0, 100.0, 100.0)
-    return Viewport(
-        0.0, 0.0, unit.length(root.get("width", "100%"), 0), unit.length(root.get("height", "100%"), 1)
-    )
+    width, height = (UNKNOWN_PAGE.length(size, axis) for axis, size in enumerate(sizes))
+    return Viewport(0.0, 0.0, width, height)
 
 
 def view_box(element: Element) -> Viewport | None:
@@ -102,7 +110,7 @@ def walk(root: Element) -> Iterator[Drawn]:
     """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
     sheet = StyleSheet.of(root)
     by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
-    waiting = [Place((root,), read_viewport(root))]
+    waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
     while waiting:
         place = waiting.pop()
         element = place.chain[-1]
