@@ -96,7 +96,7 @@ def story(
     first = int(np.argmax(located))
     name = nearest_label(positions[-1], sketch)
     end = (
-        f"At the end it says that it is in {estimates[-1].cell_id}, near the word \u201c{name}\u201d, "
+        f'At the end it says that it is in {estimates[-1].cell_id}, near the word "{name}", '
         f"with confidence {estimates[-1].confidence:.2f}; that is {errors[-1]:.1f} m from where it truly is."
         if located[-1]
         else "At the end it is lost."

@@ -52,14 +52,14 @@ def draw_strokes(
             linewidth=linewidth,
             solid_joinstyle="round",
             solid_capstyle="round",
-            zorder=2,
+            zorder=7,
         )
 
 
 def draw_vertices(axes: Axes, strokes: Sequence[Polyline]) -> None:
     """Mark every vertex."""
     x, y = np.vstack([stroke.vertices for stroke in strokes]).T
-    axes.scatter(x, y, s=15.0, color=style.ACCENT, edgecolor="white", linewidths=0.6, zorder=3)
+    axes.scatter(x, y, s=15.0, color=style.ACCENT, edgecolor="white", linewidths=0.6, zorder=8)
 
 
 def draw_labels(axes: Axes, sketch: SchematicMap) -> None:

@@ -82,7 +82,7 @@ def draw_page(axes: Axes, sketch: SchematicMap, estimates: Sequence[Estimate], t
             facecolor="white",
             edgecolor=style.TRAIL,
             linewidths=2.0,
-            zorder=8,
+            zorder=9,
             label="first located",
         )
     style.draw_robot(axes, estimates[-1].sketch_from_base.pose, 0.03 * sketch.diagonal)
@@ -124,7 +124,7 @@ def draw_rivals(axes: Axes, estimate: Estimate, diagonal: float) -> None:
         sizes = np.array([rival.probability for rival in rivals])
         axes.scatter(
             places[:, 0], places[:, 1], s=30.0 + 400.0 * sizes, facecolor="none", edgecolor=style.ACCENT,
-            linewidths=1.4, zorder=7, label="other places held possible",
+            linewidths=1.4, zorder=9, label="other places held possible",
         )  # fmt: skip
 
 
@@ -143,7 +143,7 @@ def draw_close_view(axes: Axes, sketch: SchematicMap, estimate: Estimate, local_
     here = estimate.sketch_from_base
     points = here @ local_map
     draw_strokes(axes, sketch.strokes, linewidth=2.4)
-    axes.scatter(points[:, 0], points[:, 1], s=4.0, color=style.ACCENT, alpha=0.5, linewidths=0.0, zorder=3)
+    axes.scatter(points[:, 0], points[:, 1], s=4.0, color=style.ACCENT, alpha=0.5, linewidths=0.0, zorder=8)
     reach = np.quantile(np.abs(local_map), 0.95)
     half = here.scale * max(CLOSEST_VIEW, float(reach))
     axes.set_xlim(here.pose.x - half, here.pose.x + half)

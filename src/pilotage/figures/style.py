@@ -65,7 +65,7 @@ def frame(axes: Axes, low: Array, high: Array, margin: float = 0.04) -> None:
 def draw_robot(axes: Axes, pose: Pose2, size: float, color: str = ACCENT) -> None:
     """Draw the robot as an arrowhead that points where it looks; size [axes' units] from tail to tip."""
     outline = size * (pose.rotation @ [[0.6, -0.4, -0.2, -0.4], [0.0, 0.36, 0.0, -0.36]]).T + pose.position
-    axes.fill(*outline.T, facecolor=color, edgecolor="white", linewidth=1.0, joinstyle="round", zorder=10)
+    axes.fill(*outline.T, facecolor=color, edgecolor="white", linewidth=1.0, joinstyle="round", zorder=11)
 
 
 def draw_scale_bar(axes: Axes, length: float, text: str) -> None:
