@@ -1,12 +1,16 @@
 """From the drawing to places (Wolter 2001, sections 2.2 and 4.1)."""
 
+from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
 from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.decomposition import DecompositionSettings, decompose
 from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, free_space
 from pilotage.maps.merging import MergeSettings
+from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.schematic import Label, SchematicMap
 
 __all__ = [
+    "Atlas",
+    "AtlasSettings",
     "Cell",
     "CellGraph",
     "CellSize",
@@ -17,7 +21,10 @@ __all__ = [
     "Label",
     "MergeSettings",
     "Neighbor",
+    "RangeTable",
+    "RangeTableSettings",
     "SchematicMap",
+    "build_atlas",
     "decompose",
     "free_space",
 ]

@@ -1,0 +1,41 @@
+"""Ranges from many places in all directions at once: each segment is swept over the directions it spans."""
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+
+@njit(cache=True)
+def sweep(
+    places: NDArray[np.float64], segments: NDArray[np.float64], directions: int, farthest: float
+) -> NDArray[np.float32]:
+    """Measure from each place (n, 2) to the nearest segment in evenly spaced directions, (n, directions).
+
+    Direction k points at 2 pi k / directions from the x axis. Segments are rows x1, y1, x2, y2, (m, 4).
+    Where there is none within `farthest`, that is the range.
+    """
+    step = math.tau / directions
+    ranges = np.full((len(places), directions), np.float32(farthest))
+    for i in range(len(places)):
+        for j in range(len(segments)):
+            first_x, first_y = segments[j, 0] - places[i, 0], segments[j, 1] - places[i, 1]
+            last_x, last_y = segments[j, 2] - places[i, 0], segments[j, 3] - places[i, 1]
+            first = math.atan2(first_y, first_x)
+            width = math.atan2(last_y, last_x) - first
+            if width > math.pi:
+                width -= math.tau
+            elif width < -math.pi:
+                width += math.tau
+            low = min(first, first + width)
+            # all points of the segment's line have the same product with its normal
+            normal_x, normal_y = first_y - last_y, last_x - first_x
+            offset = normal_x * first_x + normal_y * first_y
+            for k in range(math.ceil(low / step), math.floor((low + abs(width)) / step) + 1):
+                along = normal_x * math.cos(k * step) + normal_y * math.sin(k * step)
+                if along != 0.0:
+                    reach = np.float32(offset / along)
+                    if 0.0 <= reach < ranges[i, k % directions]:
+                        ranges[i, k % directions] = reach
+    return ranges

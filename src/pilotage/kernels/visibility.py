@@ -1,0 +1,131 @@
+"""How well what a scan shows agrees with what could be seen on the drawing, for many hypotheses at once.
+
+A hypothesis is a column of `states` (6, n): x, y [drawing units], heading [rad], log scale [log drawing units
+per metre], and the stretch (p, q): a point of the robot's frame is carried to the sketch by
+
+    (x, y) + exp(log_scale) * exp([[p, q], [q, -p]]) @ R(heading) @ point.
+
+All logarithms of lengths are whole numbers of `LOG_STEP`, so that one look-up replaces log, exp and atan2.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+LOG_STEP = 0.03  # 3 % of a range, a fifth of the deviation that a careful drawing has
+LOG_ZERO = 80  # level of a range of one grid cell; level 0 is a hundredth of that, 255 almost 200 cells
+NO_RETURN = 32767  # level of a beam that did not come back
+HEADINGS = 240  # directions before stretching: 1.5 degrees, a third of the step between the beams of a look
+STRETCHES = 9  # levels of p and of q
+MAX_STRETCH = 0.8  # of p and of q: lengths up to 2.2 times too long one way and too short the other
+
+
+@njit(cache=True)
+def stretch_tables(directions: int) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
+    """Tabulate where a stretch turns each direction and by what it lengthens it, each (p, q, HEADINGS).
+
+    The first counts in steps of 2 pi / directions, the second is a logarithm in steps of LOG_STEP.
+    """
+    turned = np.empty((STRETCHES, STRETCHES, HEADINGS), np.int16)
+    lengthened = np.empty((STRETCHES, STRETCHES, HEADINGS), np.int16)
+    middle = (STRETCHES - 1) / 2
+    for i in range(STRETCHES):
+        for j in range(STRETCHES):
+            p, q = (i - middle) / middle * MAX_STRETCH, (j - middle) / middle * MAX_STRETCH
+            size = math.hypot(p, q)
+            share = math.sinh(size) / size if size > 0.0 else 1.0
+            for k in range(HEADINGS):
+                cosine, sine = math.cos(math.tau * k / HEADINGS), math.sin(math.tau * k / HEADINGS)
+                # exp([[p, q], [q, -p]]) = cosh(size) I + sinh(size) / size [[p, q], [q, -p]]
+                x = (math.cosh(size) + share * p) * cosine + share * q * sine
+                y = share * q * cosine + (math.cosh(size) - share * p) * sine
+                turned[i, j, k] = round(math.atan2(y, x) / math.tau * directions) % directions
+                lengthened[i, j, k] = round(math.log(math.hypot(x, y)) / LOG_STEP)
+    return turned, lengthened
+
+
+@njit(cache=True)
+def stretch_level(stretch: float) -> int:
+    """Return the nearest tabulated level of p or q."""
+    middle = (STRETCHES - 1) / 2
+    return min(max(int(stretch / MAX_STRETCH * middle + middle + 0.5), 0), STRETCHES - 1)
+
+
+@njit(cache=True)
+def score_hypotheses(
+    states: NDArray[np.float64],
+    beams: NDArray[np.int64],
+    levels: NDArray[np.int64],
+    log_ranges: NDArray[np.uint8],
+    grid: tuple[float, float, float, int, int],
+    tables: tuple[NDArray[np.int16], NDArray[np.int16]],
+    log_likelihoods: NDArray[np.float32],
+    no_return: tuple[int, float],
+    outside: float,
+) -> NDArray[np.float64]:
+    """Sum over beams the log-likelihood of the measured range where each hypothesis stands, (n,).
+
+    `beams` (m,) are directions in the robot's frame in steps of 2 pi / HEADINGS, `levels` (m,) the measured
+    ranges as log metres in steps of LOG_STEP, or NO_RETURN. `log_ranges` (columns * rows, directions) is the
+    drawing's range table on the grid (left, bottom, cell size, columns, rows). `log_likelihoods` (2 k + 1,)
+    is indexed by k + log(predicted / measured) in steps of LOG_STEP. A beam that did not come back costs
+    `no_return[1]` where a wall is predicted nearer than level `no_return[0]`. A hypothesis off the grid gets
+    `outside` for each beam.
+    """
+    left, bottom, cell, columns, rows = grid
+    turned, lengthened = tables
+    scores = np.empty(states.shape[1])
+    widest = (len(log_likelihoods) - 1) // 2
+    log_cell = math.log(cell)
+    for i in range(states.shape[1]):
+        column = math.floor((states[0, i] - left) / cell)
+        row = math.floor((states[1, i] - bottom) / cell)
+        if not (0 <= column < columns and 0 <= row < rows):
+            scores[i] = outside * len(beams)
+            continue
+        ranges = log_ranges[column * rows + row]
+        level_p, level_q = stretch_level(states[4, i]), stretch_level(states[5, i])
+        directions, lengths = turned[level_p, level_q], lengthened[level_p, level_q]
+        heading = math.floor(states[2, i] / math.tau * HEADINGS + 0.5)
+        shift = round((log_cell - states[3, i]) / LOG_STEP) - LOG_ZERO
+        score = np.float32(0.0)
+        for j in range(len(beams)):
+            direction = (heading + beams[j]) % HEADINGS
+            predicted = ranges[directions[direction]] + shift - lengths[direction]
+            if levels[j] == NO_RETURN:
+                if predicted < no_return[0]:
+                    score += no_return[1]
+            else:
+                score += log_likelihoods[min(max(predicted - levels[j], -widest), widest) + widest]
+        scores[i] = score
+    return scores
+
+
+@njit(cache=True)
+def find_blocked(
+    starts: NDArray[np.float64],
+    steps: NDArray[np.float64],
+    log_ranges: NDArray[np.uint8],
+    grid: tuple[float, float, float, int, int],
+    tolerance: int,
+) -> NDArray[np.bool_]:
+    """Tell which steps (2, n) from which starts (2, n) run through a drawn wall or begin off the grid, (n,).
+
+    A step may be longer than the way to the wall by `tolerance` steps of LOG_STEP.
+    """
+    left, bottom, cell, columns, rows = grid
+    blocked = np.zeros(starts.shape[1], np.bool_)
+    directions = log_ranges.shape[1]
+    for i in range(starts.shape[1]):
+        column = math.floor((starts[0, i] - left) / cell)
+        row = math.floor((starts[1, i] - bottom) / cell)
+        length = math.hypot(steps[0, i], steps[1, i])
+        if not (0 <= column < columns and 0 <= row < rows):
+            blocked[i] = True
+        elif length > 0.0:
+            direction = round(math.atan2(steps[1, i], steps[0, i]) / math.tau * directions) % directions
+            way = int(log_ranges[column * rows + row, direction]) - LOG_ZERO + tolerance
+            blocked[i] = math.log(length / cell) > way * LOG_STEP
+    return blocked

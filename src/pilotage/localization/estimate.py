@@ -1,0 +1,101 @@
+"""What is claimed of the robot's place: never one global pose, but a place and a local similarity."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from pilotage.geometry import Array, Similarity2
+from pilotage.localization.belief import LOG_SCALE, Belief, X, Y, mean_state, similarity_of
+from pilotage.maps import Atlas
+
+
+class Status(Enum):
+    """Whether the robot claims to know where it is."""
+
+    LOCATED = "located"
+    LOST = "lost"
+
+
+@dataclass(frozen=True, slots=True)
+class Hypothesis:
+    """One place where the robot may be."""
+
+    cell_id: str  # empty if the drawing has no cells
+    sketch_from_base: Similarity2  # of the surroundings; y up [drawing units per metre]
+    probability: float  # [0..1]
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """Where the robot is on the drawing, as far as a scan can tell; the best guess even when lost."""
+
+    stamp: float  # [s]
+    status: Status
+    cell_id: str
+    sketch_from_base: Similarity2
+    confidence: float  # [0..1] probability that the robot is at this place
+    hypotheses: tuple[Hypothesis, ...] = ()  # the most probable first
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateSettings:
+    """What counts as one place, and when the robot knows its own."""
+
+    block: float = 1.0  # [m] hypotheses are gathered over three by three blocks of this size
+    hypotheses: int = 5  # how many places are told, at most
+    least: float = 0.02  # probability of a place that is worth telling
+    located: float = 0.5  # confidence from which on the robot claims to be located
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        if not self.block > 0.0:
+            raise ValueError(f"block must be > 0 m, got {self.block}")
+        if not self.hypotheses >= 1:
+            raise ValueError(f"hypotheses must be >= 1, got {self.hypotheses}")
+        for name in ("least", "located"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name} must be in [0, 1], got {getattr(self, name)}")
+
+
+def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tuple[Hypothesis, ...]:
+    """Gather hypotheses that stand close together into places, the most probable first; at least one."""
+    block = settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
+    columns, rows = (
+        np.floor((belief.states[row] - belief.states[row].min()) / block).astype(np.int64) for row in (X, Y)
+    )
+    remaining = np.zeros((int(columns.max()) + 3, int(rows.max()) + 3))  # a margin of one block all around
+    np.add.at(remaining, (columns + 1, rows + 1), belief.weights)
+    found: list[Hypothesis] = []
+    while len(found) < settings.hypotheses:
+        summed = _around(remaining)
+        column, row = divmod(int(summed.argmax()), summed.shape[1])
+        if found and summed[column, row] < settings.least:
+            break
+        members = (np.abs(columns - column) <= 1) & (np.abs(rows - row) <= 1)
+        members &= remaining[columns + 1, rows + 1] > 0.0
+        found.append(_place(belief.states[:, members], belief.weights[members], atlas))
+        remaining[column : column + 3, row : row + 3] = 0.0
+    return tuple(found)
+
+
+def _around(blocks: Array) -> Array:
+    """Sum each block with its eight neighbors, the margin left out."""
+    columns, rows = blocks.shape[0] - 2, blocks.shape[1] - 2
+    shifts = [(i, j) for i in range(3) for j in range(3)]
+    return np.asarray(sum(blocks[i : i + columns, j : j + rows] for i, j in shifts))
+
+
+def _place(states: Array, weights: Array, atlas: Atlas) -> Hypothesis:
+    """Sum up hypotheses that stand close together."""
+    mean = mean_state(states, weights)
+    return Hypothesis(
+        atlas.cell_at((float(mean[X]), float(mean[Y]))), similarity_of(mean), float(min(weights.sum(), 1.0))
+    )
+
+
+def estimate_from(places: tuple[Hypothesis, ...], stamp: float, settings: EstimateSettings) -> Estimate:
+    """Claim the most probable place."""
+    best = places[0]
+    status = Status.LOCATED if best.probability >= settings.located else Status.LOST
+    return Estimate(stamp, status, best.cell_id, best.sketch_from_base, best.probability, places)

@@ -1,0 +1,114 @@
+"""Scan in, estimate out: the whole of section 3 on one screen."""
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pilotage.geometry import Array, Pose2
+from pilotage.localization.belief import Belief
+from pilotage.localization.estimate import (
+    Estimate,
+    EstimateSettings,
+    Hypothesis,
+    estimate_from,
+    find_places,
+)
+from pilotage.localization.registration import RegistrationSettings, register
+from pilotage.localization.tracking import TrackingSettings, draw_anywhere, draw_near, predict, weigh
+from pilotage.localization.visibility import VisibilityModel, VisibilitySettings, look
+from pilotage.maps import AtlasSettings, SchematicMap, build_atlas
+from pilotage.perception import LaserScan, Odometry, PerceptionMap, PerceptionSettings, perceive
+from pilotage.perception.perception_map import PerceptionMapSettings
+
+
+@dataclass(frozen=True, slots=True)
+class LocalizerSettings:
+    """The settings of all stages, and how often belief is weighed."""
+
+    atlas: AtlasSettings = field(default_factory=AtlasSettings)
+    perception: PerceptionSettings = field(default_factory=PerceptionSettings)
+    perception_map: PerceptionMapSettings = field(default_factory=PerceptionMapSettings)
+    registration: RegistrationSettings = field(default_factory=RegistrationSettings)
+    visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
+    tracking: TrackingSettings = field(default_factory=TrackingSettings)
+    estimate: EstimateSettings = field(default_factory=EstimateSettings)
+    step: float = 0.5  # [m] belief is weighed anew once the robot has moved this far
+    turn: float = math.radians(20.0)  # [rad] or turned so much: looks from one place err together
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("step", "turn"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+
+
+class Localizer:
+    """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
+
+    `start` is a pose in the sketch (y up), `scale` drawing units per metre; without them the robot may be
+    anywhere, at any heading, and the drawing of any scale. Raises ValueError if these cannot be meant.
+    """
+
+    def __init__(
+        self,
+        sketch: SchematicMap,
+        settings: LocalizerSettings | None = None,
+        *,
+        seed: int = 0,
+        start: Pose2 | None = None,
+        scale: float | None = None,
+    ) -> None:
+        self.settings = settings if settings is not None else LocalizerSettings()
+        if scale is not None and not (scale > 0.0 and math.isfinite(scale)):
+            raise ValueError(f"scale must be positive and finite, got {scale}")
+        self._rng = np.random.default_rng(seed)
+        self.atlas = build_atlas(sketch, self.settings.atlas)
+        tracking = self.settings.tracking
+        if scale is not None:
+            self.atlas = replace(self.atlas, log_scale=math.log(scale))
+            tracking = replace(
+                tracking, prior=replace(tracking.prior, log_scale=tracking.prior.known_log_scale)
+            )
+        self._tracking = tracking
+        self._model = VisibilityModel(self.atlas, self.settings.visibility)
+        self.perception_map = PerceptionMap(self.settings.perception_map)
+        self.belief = Belief(self._first_states(start), np.zeros(tracking.first_count))
+        self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
+        self._places: tuple[Hypothesis, ...] = ()
+
+    def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
+        """Take one scan in, give one estimate out."""
+        settings = self.settings
+        shapes = perceive(scan, settings.perception)  # 2.1, 2.2
+        registration = register(shapes, self.perception_map, odometry, settings.registration)  # 3.3
+        self.perception_map = self.perception_map.merged(registration)
+        motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
+        if self._motion is None or self._is_due(motion):
+            self.belief = predict(self.belief, motion, self.atlas, self._tracking, self._rng)
+            seen = look(scan, settings.visibility)
+            self.belief = weigh(self.belief, seen, self._model, self._tracking, self._rng)  # 3.4
+            self._places = find_places(self.belief, self.atlas, settings.estimate)
+            motion = Pose2.identity()
+        self._motion = motion
+        return estimate_from(self._moved_places(motion), scan.stamp, settings.estimate)
+
+    def _first_states(self, start: Pose2 | None) -> Array:
+        """Draw hypotheses before the first scan."""
+        tracking = self._tracking
+        if start is None:
+            return draw_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
+        return draw_near(start, self.atlas, tracking.prior, tracking.first_count, self._rng)
+
+    def _is_due(self, motion: Pose2) -> bool:
+        """Tell whether the robot moved far enough to see anything new."""
+        return math.hypot(motion.x, motion.y) >= self.settings.step or abs(motion.theta) >= self.settings.turn
+
+    def _moved_places(self, motion: Pose2) -> tuple[Hypothesis, ...]:
+        """Carry the places on since they were found."""
+        moved = []
+        for place in self._places:
+            sketch_from_base = place.sketch_from_base @ motion
+            cell_id = self.atlas.cell_at((sketch_from_base.pose.x, sketch_from_base.pose.y))
+            moved.append(Hypothesis(cell_id, sketch_from_base, place.probability))
+        return tuple(moved)

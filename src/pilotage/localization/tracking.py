@@ -1,0 +1,134 @@
+"""Carry belief from scan to scan: a long walk settles what one look cannot (Wolter 2001, section 3.4)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Array, Pose2
+from pilotage.localization.belief import HEADING, LOG_SCALE, STRETCH_P, STRETCH_Q, Belief, X, Y, stretched
+from pilotage.localization.visibility import Look, VisibilityModel
+from pilotage.maps import Atlas
+
+
+@dataclass(frozen=True, slots=True)
+class Prior:
+    """What is known before the first scan."""
+
+    log_scale: float = 0.45  # deviation of the guess that the drawing allows
+    stretch: float = 0.25  # deviation of p and q: proportions 30 % off are common
+    known_log_scale: float = 0.2  # deviation where the user gave a scale: drawings vary by place
+    known_place: float = 1.0  # [m] deviation where the user gave a start
+    known_heading: float = math.radians(10.0)  # [rad] the same
+
+
+@dataclass(frozen=True, slots=True)
+class Drift:
+    """How the drawing's falseness changes along the way, and how motion errs (deviations)."""
+
+    log_scale: float = 0.08  # per sqrt(m): 25 % over 10 m
+    stretch: float = 0.08  # per sqrt(m), of p and of q
+    place: float = 0.1  # [m/sqrt(m)]
+    heading: float = 0.04  # [rad/sqrt(m)] angles are drawn off, and walls bent
+    length: float = 0.08  # per sqrt(m), of the way itself: a corridor drawn too short
+    motion: float = 0.05  # [m/m] of registered motion
+    motion_still: float = 0.01  # [m]
+    turn: float = 0.02  # [rad/rad] of registered turns
+    turn_still: float = 0.005  # [rad]
+
+
+@dataclass(frozen=True, slots=True)
+class TrackingSettings:
+    """How belief is carried."""
+
+    prior: Prior = Prior()
+    drift: Drift = Drift()
+    first_count: int = 400_000  # hypotheses before the first scan
+    count: int = 40_000  # hypotheses once most are settled
+    shrink: float = 0.6  # share kept at each resampling on the way from the first count to the last
+    resample_below: float = 0.5  # share of effective hypotheses below which belief is resampled
+    wall_penalty: float = 3.0  # log-odds of walking through a drawn wall: a door forgotten, a wall moved
+    wall_tolerance: float = 0.2  # log of how much longer than the way to the wall a step may be
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        if not self.first_count >= self.count >= 1:
+            raise ValueError(
+                f"counts need first_count >= count >= 1, got {self.first_count} and {self.count}"
+            )
+        if not 0.0 < self.shrink <= 1.0:
+            raise ValueError(f"shrink must be in (0, 1], got {self.shrink}")
+
+
+def draw_anywhere(atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
+    """Draw hypotheses evenly over the drawing's free space, with any heading, (6, count)."""
+    table = atlas.range_table
+    chosen = np.arange(count) * len(table.places) // count
+    if count < len(table.places):
+        chosen = rng.choice(len(table.places), count)
+    places = table.places[chosen] + (rng.random((count, 2)) - 0.5) * table.cell_size
+    return np.stack(
+        [
+            *places.T,
+            rng.uniform(-math.pi, math.pi, count),
+            atlas.log_scale + prior.log_scale * rng.standard_normal(count),
+            prior.stretch * rng.standard_normal(count),
+            prior.stretch * rng.standard_normal(count),
+        ]
+    )
+
+
+def draw_near(start: Pose2, atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
+    """Draw hypotheses around a pose in the sketch that the user gave, (6, count)."""
+    states = draw_anywhere(atlas, prior, count, rng)
+    scale = np.exp(states[LOG_SCALE])
+    states[X] = start.x + prior.known_place * scale * rng.standard_normal(count)
+    states[Y] = start.y + prior.known_place * scale * rng.standard_normal(count)
+    states[HEADING] = start.theta + prior.known_heading * rng.standard_normal(count)
+    return states
+
+
+def predict(
+    belief: Belief, motion: Pose2, atlas: Atlas, settings: TrackingSettings, rng: np.random.Generator
+) -> Belief:
+    """Move every hypothesis by the motion of the robot in its own frame, and let the drawing drift."""
+    from pilotage.kernels.visibility import LOG_STEP, find_blocked
+
+    drift, prior, count = settings.drift, settings.prior, len(belief)
+    distance = math.hypot(motion.x, motion.y)
+    root = math.sqrt(distance)
+    noise = rng.standard_normal((8, count), dtype=np.float32).astype(np.float64)
+    longer = np.exp(drift.length * root * noise[0])
+    deviation = drift.motion_still + drift.motion * distance
+    steps = stretched(
+        belief.states,
+        longer * (motion.x + deviation * noise[1]),
+        longer * (motion.y + deviation * noise[2]),
+    )
+    table = atlas.range_table
+    tolerance = round(settings.wall_tolerance / LOG_STEP)
+    blocked = find_blocked(belief.states[:2], steps, table.log_ranges, table.grid, tolerance)
+    states = belief.states.copy()
+    astray = drift.place * root * np.exp(states[LOG_SCALE])
+    states[X] += steps[0] + astray * noise[3]
+    states[Y] += steps[1] + astray * noise[4]
+    turn_deviation = drift.heading * root + drift.turn * abs(motion.theta) + drift.turn_still
+    states[HEADING] += motion.theta + turn_deviation * noise[5]
+    # Ornstein-Uhlenbeck: falseness wanders, and is drawn back to what is usual
+    for row, usual, rate, spread, kick in (
+        (LOG_SCALE, atlas.log_scale, drift.log_scale * root, prior.log_scale, noise[6]),
+        (STRETCH_P, 0.0, drift.stretch * root, prior.stretch, noise[7]),
+        (STRETCH_Q, 0.0, drift.stretch * root, prior.stretch, rng.standard_normal(count)),
+    ):
+        states[row] += rate * kick - (states[row] - usual) * min(rate**2 / (2.0 * spread**2), 1.0)
+    return Belief(states, belief.log_weights - settings.wall_penalty * blocked)
+
+
+def weigh(
+    belief: Belief, seen: Look, model: VisibilityModel, settings: TrackingSettings, rng: np.random.Generator
+) -> Belief:
+    """Weigh every hypothesis by how well it predicts what is seen; resample when few carry the weight."""
+    weighed = Belief(belief.states, belief.log_weights + model.score(belief.states, seen))
+    if weighed.effective_count >= settings.resample_below * len(weighed):
+        return weighed
+    return weighed.resampled(max(settings.count, int(settings.shrink * len(weighed))), rng)
