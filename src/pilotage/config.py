@@ -1,6 +1,7 @@
 """Settings of all stages in one nested value, read from TOML; unknown names are refused."""
 
 import difflib
+import json
 import tomllib
 import types
 from collections.abc import Mapping
@@ -45,6 +46,31 @@ def read_settings(path: Path | str) -> Settings:
         raise FileError(f"a settings file must be TOML ({error})", path) from error
     except SettingsError as error:
         raise SettingsError(f"{error}: {path}") from error
+
+
+def settings_text(settings: object, name: str = "") -> str:
+    """Write settings as TOML, a table a stage; what has no value is left out."""
+    values = {one.name: getattr(settings, one.name) for one in fields(settings)}  # type: ignore[arg-type]
+    plain = {key: value for key, value in values.items() if value is not None and not is_dataclass(value)}
+    lines = [f"{key} = {toml_value(value)}" for key, value in plain.items()]
+    own = "\n".join([f"[{name}]", *lines, ""]) if name and lines else ""
+    nested = [
+        settings_text(value, f"{name}.{key}".lstrip("."))
+        for key, value in values.items()
+        if is_dataclass(value)
+    ]
+    return "\n".join(part for part in (own, *nested) if part)
+
+
+def toml_value(value: object) -> str:
+    """Write one value."""
+    if isinstance(value, Enum):
+        return toml_value(value.value)
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(toml_value, value))}]"
+    if isinstance(value, str | bool):
+        return json.dumps(value)
+    return repr(float(value)) if isinstance(value, float) else repr(value)
 
 
 def settings_from(tree: Mapping[str, object]) -> Settings:

@@ -7,7 +7,7 @@ import pytest
 
 from pilotage import demo
 
-COMMANDS = ("demo", "localize", "perceive", "simplify")
+COMMANDS = ("demo", "localize", "perceive", "settings", "simplify")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -160,3 +160,21 @@ def test_force_replaces_a_file(pilotage, tmp_path):
 
     assert 0 == pilotage("perceive", demo.LOG, "--figure", old, "--force").code
     assert old.read_bytes().startswith(b"\x89PNG")
+
+
+def test_settings_that_are_printed_can_be_read_back(pilotage, tmp_path):
+    first = pilotage("settings")
+    (tmp_path / "mine.toml").write_text(first.out)
+    again = pilotage("settings", tmp_path / "mine.toml")
+
+    assert 0 == first.code
+    assert "[localizer" in first.out
+    assert first.out == again.out
+
+
+def test_a_setting_that_is_not_known_is_refused_by_name(pilotage, tmp_path):
+    (tmp_path / "mine.toml").write_text("[localizer.perception]\nmin_relevence = 1.0\n")
+    outcome = pilotage("localize", demo.SKETCH, demo.LOG, "--settings", tmp_path / "mine.toml")
+
+    assert 1 == outcome.code
+    assert "localizer.perception.min_relevence, the nearest known one is" in outcome.err

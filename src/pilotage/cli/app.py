@@ -8,6 +8,7 @@ import typer
 from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
 from pilotage.cli.perceive import perceive
+from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
 
 app = typer.Typer(
@@ -42,4 +43,5 @@ def common(
 app.command()(demo)
 app.command()(localize)
 app.command()(perceive)
+app.command()(settings)
 app.command()(simplify)
