@@ -1,0 +1,129 @@
+"""Order-keeping correspondence of arcs (Latecki and Lakämper 2000; Wolter 2001, section 3)."""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from pilotage.kernels.segment_correspondence import combined_dissimilarity
+from pilotage.kernels.steps import ArcSteps, Steps
+from pilotage.kernels.tangent import arc_dissimilarity
+
+EQUATION_2, COMBINED = 0, 1  # the measures of two stretches
+
+
+@njit(cache=True)
+def stretch_dissimilarity(
+    c: Steps,
+    c_first: int,
+    c_last: int,
+    d: Steps,
+    d_first: int,
+    d_last: int,
+    measure: int,
+    largest_run: int,
+) -> float:
+    """Compare two stretches by one of the measures."""
+    if measure == COMBINED:
+        return combined_dissimilarity(c, c_first, c_last, d, d_first, d_last, largest_run)
+    return arc_dissimilarity(c, c_first, c_last, d, d_first, d_last)
+
+
+@njit(cache=True)
+def group_sizes(largest: int) -> NDArray[np.int64]:
+    """List how many arcs of c may answer to how many of d: 1-1, 1-3, 3-1, 1-5 ... up to `largest`, (g, 2).
+
+    Odd groups begin and end with the same bend, so that convex answers to convex all along.
+    """
+    sizes = np.ones((largest, 2), dtype=np.int64)
+    for g in range(1, largest):
+        sizes[g, g % 2] = 2 * ((g + 1) // 2) + 1
+    return sizes
+
+
+@njit(cache=True)
+def group_costs(
+    c: ArcSteps, d: ArcSteps, sizes: NDArray[np.int64], measure: int, largest_run: int
+) -> NDArray[np.float64]:
+    """Compare each group of arcs of c, from arc i on, with each of d, from arc j on, (g, k, m).
+
+    What must not answer to each other costs infinity: unlike bends, and groups longer than their contour.
+    """
+    k, m = len(c.bends), len(d.bends)
+    costs = np.full((len(sizes), k, m), np.inf)
+    for g in range(len(sizes)):
+        c_size, d_size = sizes[g]
+        if c_size > k or d_size > m:
+            continue
+        for i in range(min(k, len(c.arc_starts) - c_size)):
+            for j in range(min(m, len(d.arc_starts) - d_size)):
+                if c.bends[i] * d.bends[j] >= 0:
+                    costs[g, i, j] = stretch_dissimilarity(
+                        c.steps,
+                        c.arc_starts[i],
+                        c.arc_starts[i + c_size],
+                        d.steps,
+                        d.arc_starts[j],
+                        d.arc_starts[j + d_size],
+                        measure,
+                        largest_run,
+                    )
+    return costs
+
+
+@njit(cache=True)
+def cheapest_sequence(
+    costs: NDArray[np.float64], sizes: NDArray[np.int64], i0: int, j0: int, best: NDArray[np.float64]
+) -> float:
+    """Sum up the cheapest sequence of groups that uses up all arcs, of c from i0 on and of d from j0 on.
+
+    `best` (k + 1, m + 1) is room to work in.
+    """
+    k, m = costs.shape[1], costs.shape[2]
+    best[:] = np.inf
+    best[0, 0] = 0.0
+    for i in range(k):
+        for j in range(i % 2, m, 2):  # groups are odd on both sides: i + j stays even
+            if best[i, j] < np.inf:
+                for g in range(len(sizes)):
+                    i1, j1 = i + sizes[g, 0], j + sizes[g, 1]
+                    if i1 <= k and j1 <= m:
+                        cost = best[i, j] + costs[g, (i0 + i) % k, (j0 + j) % m]
+                        best[i1, j1] = min(best[i1, j1], cost)
+    return float(best[k, m])
+
+
+@njit(cache=True)
+def open_dissimilarity(c: ArcSteps, d: ArcSteps, largest_group: int, measure: int, largest_run: int) -> float:
+    """Compare two open lines: arcs against arcs in order, or all of one against all of the other."""
+    sizes = group_sizes(largest_group)
+    costs = group_costs(c, d, sizes, measure, largest_run)
+    in_order = cheapest_sequence(costs, sizes, 0, 0, np.empty((len(c.bends) + 1, len(d.bends) + 1)))
+    n, m = len(c.steps.directions), len(d.steps.directions)
+    return min(in_order, stretch_dissimilarity(c.steps, 0, n, d.steps, 0, m, measure, largest_run))
+
+
+@njit(cache=True)
+def closed_dissimilarity(
+    c: ArcSteps, d: ArcSteps, largest_group: int, measure: int, largest_run: int
+) -> float:
+    """Compare two closed contours: arcs against arcs in cyclic order, or all against all from any vertex.
+
+    A correspondence is found whatever its start, if one of its groups starts where we start. One of any
+    `largest_group` arcs in a row starts a group: so many starts of c and all of d are enough.
+    """
+    sizes = group_sizes(largest_group)
+    costs = group_costs(c, d, sizes, measure, largest_run)
+    k, m = len(c.bends), len(d.bends)
+    least = np.inf
+    best = np.empty((k + 1, m + 1))
+    for i0 in range(min(largest_group, k)):
+        for j0 in range(m):
+            if c.bends[i0] * d.bends[j0] >= 0:
+                least = min(least, cheapest_sequence(costs, sizes, i0, j0, best))
+    whole = measure if k == 1 and m == 1 else EQUATION_2  # dear, and of use only where an arc is all there is
+    n_c, n_d = len(c.steps.directions) // 2, len(d.steps.directions) // 2
+    for p in range(n_c):
+        for q in range(n_d):
+            cost = stretch_dissimilarity(c.steps, p, p + n_c, d.steps, q, q + n_d, whole, largest_run)
+            least = min(least, cost)
+    return least

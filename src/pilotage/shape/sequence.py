@@ -1,0 +1,54 @@
+"""A contour as a sequence of arcs, laid out once and compared often."""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.geometry import Polyline
+from pilotage.kernels.steps import ArcSteps, Steps
+from pilotage.shape.arcs import Bend, find_arcs
+from pilotage.shape.tangent import TangentFunction
+
+
+@dataclass(frozen=True, eq=False)
+class ArcSequence:
+    """The tangent function of a contour, its maximal arcs marked on it.
+
+    Where an inflection segment is cut at its middle, the tangent function has a stop without a step.
+    """
+
+    tangent: TangentFunction
+    arc_starts: NDArray[
+        np.int64
+    ]  # (k + 1,) the piece of the tangent function where each arc starts, and the end
+    bends: tuple[Bend, ...]  # (k,)
+    closed: bool
+
+    @classmethod
+    def of(cls, polyline: Polyline) -> Self:
+        """Cut a polyline into arcs; a closed one with inflections starts at the first of them."""
+        arcs = find_arcs(polyline)
+        stretches = [polyline.cut(arc.span) for arc in arcs]
+        vertices = np.vstack([stretches[0].vertices, *(stretch.vertices[1:] for stretch in stretches[1:])])
+        pieces = [np.count_nonzero(stretch.segment_lengths) for stretch in stretches]
+        return cls(
+            TangentFunction.of(Polyline(vertices)),
+            np.cumsum([0, *pieces]),
+            tuple(arc.bend for arc in arcs),
+            polyline.closed,
+        )
+
+    def steps(self, length: float) -> ArcSteps:
+        """Lay out for the kernels, as if the contour had this length."""
+        stops, along, starts = self.tangent.stops, self.tangent.directions, self.arc_starts
+        if self.closed:
+            gap = along[0] - along[-1]
+            around = along[-1] - along[0] + gap - math.tau * round(gap / math.tau)
+            stops = np.concatenate([stops, 1.0 + stops[1:]])
+            along = np.concatenate([along, along + around])
+            starts = np.concatenate([starts, starts[-1] + starts[1:]])
+        bends = np.array([bend.value for bend in self.bends])
+        return ArcSteps(Steps(length * stops, along), starts, bends)
