@@ -98,14 +98,17 @@ def refine_pose(
     field: SegmentField,
     start: NDArray[np.float64],
     prior: NDArray[np.float64],
-    prior_information: NDArray[np.float64],
+    information: NDArray[np.float64],
+    tail: float,
     widths: NDArray[np.float64],
     min_cosine: float,
     overhang: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
     """Take one Gauss-Newton step for each width, from wide to narrow, starting at a pose (x, y, theta).
 
-    `prior_information` (3, 3) holds the pose near `prior`, in units of the information of one point.
+    `information` (3, 3) holds the pose near `prior`, in units of the information of one point; its hold
+    loosens with the distance m^2 in these units as 1 / (1 + m^2 / tail), since odometry is either right or
+    grossly wrong.
 
     Returns
     -------
@@ -119,7 +122,8 @@ def refine_pose(
         )
         delta = pose - prior
         delta[2] -= math.tau * round(delta[2] / math.tau)
-        pose -= solve_symmetric(hessian + prior_information, gradient + prior_information @ delta)
+        hold = information / (1.0 + delta @ (information @ delta) / tail)
+        pose -= solve_symmetric(hessian + hold, gradient + hold @ delta)
     hessian, _, support, error = linearize(
         points, directions, weights, field, pose, widths[-1], min_cosine, overhang
     )

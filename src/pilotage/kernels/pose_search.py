@@ -1,7 +1,7 @@
-"""Find poses from which a scan may have been taken: headings by histograms of directions, places by trial.
+"""Find poses from which a scan may have been taken, by trial of headings and places.
 
-The correlation of direction histograms is that of Weiss, Wetzler and von Puttkamer (1994); here directions
-count over the full turn, since free space lies left of every segment.
+Correlative scan matching (Olson 2009) on the nearest-segment field. All headings within reach are tried: the
+best by direction histogram (Weiss et al. 1994) alone miss the right one in clutter (decision 0006).
 """
 
 import math
@@ -11,76 +11,42 @@ from numba import njit
 from numpy.typing import NDArray
 
 from pilotage.kernels.segment_field import NONE, SegmentField
-from pilotage.kernels.segment_sampling import direction_histogram
 
 
 @njit(cache=True)
-def likely_turns(
-    directions: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    field: SegmentField,
-    heading: float,
-    max_turn: float,
-    bins: int,
-    count: int,
-) -> NDArray[np.float64]:
-    """Find the turns from `heading` at which directions of scan and map agree best, 0 first, (<= count,)."""
-    scan = direction_histogram(directions, weights, bins)
-    known = direction_histogram(field.directions, field.lengths, bins)
-    reach = int(max_turn / math.tau * bins)
-    agreement = np.zeros(2 * reach + 3)
-    offset = heading / math.tau * bins
-    for k in range(len(agreement)):
-        shift = offset + k - reach - 1
-        low = math.floor(shift)
-        share = shift - low
-        for b in range(bins):
-            at = (b + int(low)) % bins
-            agreement[k] += scan[b] * ((1.0 - share) * known[at] + share * known[(at + 1) % bins])
-    turns = np.zeros(count)
-    found = 1
-    for _ in range(count - 1):
-        best, best_k = 0.0, -1
-        for k in range(1, len(agreement) - 1):
-            peak = agreement[k] >= agreement[k - 1] and agreement[k] >= agreement[k + 1]
-            if peak and agreement[k] > best:
-                best, best_k = agreement[k], k
-        if best_k < 0:
-            break
-        turns[found] = (best_k - reach - 1) * math.tau / bins
-        agreement[best_k] = 0.0
-        found += 1
-    return turns[:found]
-
-
-@njit(cache=True)
-def score_places(
+def add_place_scores(
+    scores: NDArray[np.float64],
     points: NDArray[np.float64],
     directions: NDArray[np.float64],
     weights: NDArray[np.float64],
     field: SegmentField,
+    corner: NDArray[np.float64],
     heading: float,
-    xs: NDArray[np.float64],
-    ys: NDArray[np.float64],
+    stride: int,
     width: float,
     min_cosine: float,
-) -> NDArray[np.float64]:
-    """Sum, for every x and y, the weights of the points near a segment that runs their way.
+) -> None:
+    """Add, for places (rows, columns), the weights of the points near a segment that runs their way.
 
-    A point at distance d counts 1 / (1 + (d / width)^2). Returns (ys, xs).
+    The places start at a `corner` (x, y) and lie `stride` cells of the field apart. A point at distance d
+    counts 1 / (1 + (d / width)^2).
     """
-    scores = np.zeros((len(ys), len(xs)))
     rows, columns = field.nearest.shape
     c, s = math.cos(heading), math.sin(heading)
     for i in range(len(points)):
-        rx, ry = c * points[i, 0] - s * points[i, 1], s * points[i, 0] + c * points[i, 1]
+        x = corner[0] + c * points[i, 0] - s * points[i, 1]
+        y = corner[1] + s * points[i, 0] + c * points[i, 1]
         vx, vy = c * directions[i, 0] - s * directions[i, 1], s * directions[i, 0] + c * directions[i, 1]
-        for iy in range(len(ys)):
-            row = math.floor((ys[iy] + ry - field.bottom) / field.cell)
+        first_row, first_column = (
+            math.floor((y - field.bottom) / field.cell),
+            math.floor((x - field.left) / field.cell),
+        )
+        for iy in range(scores.shape[0]):
+            row = first_row + iy * stride
             if row < 0 or row >= rows:
                 continue
-            for ix in range(len(xs)):
-                column = math.floor((xs[ix] + rx - field.left) / field.cell)
+            for ix in range(scores.shape[1]):
+                column = first_column + ix * stride
                 if column < 0 or column >= columns:
                     continue
                 k = field.nearest[row, column]
@@ -88,7 +54,6 @@ def score_places(
                     continue
                 ratio = field.distance[row, column] / width
                 scores[iy, ix] += weights[i] / (1.0 + ratio * ratio)
-    return scores
 
 
 @njit(cache=True)
@@ -98,56 +63,55 @@ def search_poses(
     weights: NDArray[np.float64],
     field: SegmentField,
     guess: NDArray[np.float64],
-    turns: NDArray[np.float64],
-    turn_deviation: float,
-    place_deviation: float,
-    radius: float,
-    step: float,
+    deviations: NDArray[np.float64],
+    window: NDArray[np.float64],
+    turn_step: float,
+    stride: int,
     width: float,
     min_cosine: float,
     penalty: float,
+    tail: float,
     count: int,
 ) -> NDArray[np.float64]:
-    """Try turns and places up to `radius` from a guess (x, y, theta) and return the best poses, (count, 3).
+    """Try headings and places round a guess (x, y, theta) and return the best poses, (count, 3).
 
-    A pose scores the share of points near their segments, less `penalty` for each squared deviation from the
-    guess. Poses of one turn lie at least three steps apart.
+    Parameters
+    ----------
+    points, directions, weights
+        Samples of the scan in the base frame, (n, 2), (n, 2), (n,).
+    deviations, window
+        How uncertain the guess is, and how far from it to look: place and heading, (2,) each.
+    turn_step, stride
+        Steps between headings, and between places in cells of the field.
+    penalty, tail
+        A pose scores the share of points near their segments, less penalty * log(1 + m^2 / tail) for m
+        deviations from the guess.
     """
-    side = 2 * math.ceil(radius / step) + 1
-    offsets = (np.arange(side) - side // 2) * step
+    step = stride * field.cell
+    half, half_turns = math.ceil(window[0] / step), math.ceil(window[1] / turn_step)
+    side, turns = 2 * half + 1, 2 * half_turns + 1
+    corner = guess[:2] - half * step
+    scores = np.zeros((turns, side, side))
     total = max(weights.sum(), 1.0)
-    scores = np.empty((len(turns), side, side))
-    for h in range(len(turns)):
-        scores[h] = (
-            score_places(
-                points,
-                directions,
-                weights,
-                field,
-                guess[2] + turns[h],
-                guess[0] + offsets,
-                guess[1] + offsets,
-                width,
-                min_cosine,
-            )
-            / total
+    for h in range(turns):
+        turn = (h - half_turns) * turn_step
+        add_place_scores(
+            scores[h], points, directions, weights, field, corner, guess[2] + turn, stride, width, min_cosine
         )
         for iy in range(side):
             for ix in range(side):
-                place = (offsets[ix] ** 2 + offsets[iy] ** 2) / place_deviation**2
-                scores[h, iy, ix] -= penalty * (place + (turns[h] / turn_deviation) ** 2)
+                place = ((ix - half) ** 2 + (iy - half) ** 2) * (step / deviations[0]) ** 2
+                m = place + (turn / deviations[1]) ** 2
+                scores[h, iy, ix] = scores[h, iy, ix] / total - penalty * math.log(1.0 + m / tail)
     poses = np.empty((count, 3))
     for n in range(count):
-        best, h, iy, ix = -np.inf, 0, side // 2, side // 2
-        for i in range(len(turns)):
+        best, h, iy, ix = -np.inf, half_turns, half, half
+        for i in range(turns):
             for j in range(side):
                 for k in range(side):
                     if scores[i, j, k] > best:
                         best, h, iy, ix = scores[i, j, k], i, j, k
-        poses[n, 0], poses[n, 1], poses[n, 2] = (
-            guess[0] + offsets[ix],
-            guess[1] + offsets[iy],
-            guess[2] + turns[h],
-        )
-        scores[h, max(0, iy - 2) : iy + 3, max(0, ix - 2) : ix + 3] = -np.inf
+        poses[n, 0], poses[n, 1] = corner[0] + ix * step, corner[1] + iy * step
+        poses[n, 2] = guess[2] + (h - half_turns) * turn_step
+        scores[max(0, h - 1) : h + 2, max(0, iy - 2) : iy + 3, max(0, ix - 2) : ix + 3] = -np.inf
     return poses

@@ -1,7 +1,5 @@
 """Points at even distances along segments, so that a shape weighs by its length and not by its beams."""
 
-import math
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -39,18 +37,3 @@ def sample_segments(
             owners[at] = k
             at += 1
     return points, directions, weights, owners
-
-
-@njit(cache=True)
-def direction_histogram(
-    directions: NDArray[np.float64], weights: NDArray[np.float64], bins: int
-) -> NDArray[np.float64]:
-    """Sum weights by direction over the full turn, each shared by its two nearest bins, (bins,)."""
-    histogram = np.zeros(bins)
-    for i in range(len(directions)):
-        at = math.atan2(directions[i, 1], directions[i, 0]) / math.tau * bins
-        low = math.floor(at)
-        share = at - low
-        histogram[int(low) % bins] += (1.0 - share) * weights[i]
-        histogram[int(low + 1) % bins] += share * weights[i]
-    return histogram

@@ -16,54 +16,92 @@ A robot that moves calls both for every reading:
 
 import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2, frozen_array
-from pilotage.perception import Correspondence, Odometry, PerceptionMap, Registration
+from pilotage.geometry import Array, Pose2, frozen_array, wrap_angle
+from pilotage.localization.overlap import find_correspondences
+from pilotage.perception import Odometry, OdometryNoise, PerceptionMap, Registration
 from pilotage.perception.perception_map import segments_of
 from pilotage.shape.partial import PartialShape
 
 
 @dataclass(frozen=True, slots=True)
-class OdometryNoise:
-    """How far odometry errs on the way between two scans (standard deviations)."""
+class SearchSettings:
+    """Where refinement starts: at the best of many poses, each tried with a part of the scan."""
 
-    place: float = 0.03  # [m] standing still
-    place_per_meter: float = 0.3  # [m/m]
-    turn: float = math.radians(1.0)  # [rad] standing still
-    turn_per_meter: float = math.radians(20.0)  # [rad/m]
-    turn_per_turn: float = 0.3  # [rad/rad]
-
-    def deviations(self, motion: Pose2) -> tuple[float, float]:
-        """Return the deviation of place [m] and of heading [rad] after a motion."""
-        distance = math.hypot(motion.x, motion.y)
-        return (
-            self.place + self.place_per_meter * distance,
-            self.turn + self.turn_per_meter * distance + self.turn_per_turn * abs(motion.theta),
-        )
+    points: int = 80  # of the scan, at most
+    count: int = 8  # poses returned
+    turn_step: float = math.radians(3.0)  # [rad] between headings
+    stride: int = 2  # cells of the map's field between places
+    width: float = 0.3  # [m] at which a point counts half
+    reach: float = 3.0  # deviations of odometry within which poses are tried
+    max_place: float = 1.6  # [m] never search farther, unless lost
+    max_turn: float = math.pi / 2  # [rad] never search farther
+    lost_support: float = 0.25  # with less, odometry is taken to be grossly wrong and the search widened
+    lost_place: float = 0.2  # [m] then search so far
+    lost_place_per_meter: float = (
+        2.2  # [m/m] and so much of the motion: a robot may have gone back instead of on
+    )
+    lost_turn: float = math.radians(60.0)  # [rad]
 
 
 @dataclass(frozen=True, slots=True)
 class RegistrationSettings:
     """How a scan is registered."""
 
-    noise: OdometryNoise = field(default_factory=OdometryNoise)
+    search: SearchSettings = field(default_factory=SearchSettings)
     sample_step: float = 0.1  # [m] between the points that stand for a shape
-    search_points: int = 80  # as many of them, at most, are tried at many poses
-    search_turns: int = 7  # headings tried: that of odometry and the best by direction histogram
-    search_bins: int = 120  # of the direction histogram: 3 degrees each
-    search_step: float = 0.15  # [m] between places tried
-    search_width: float = 0.3  # [m] at which a point counts half
-    search_deviations: float = 3.0  # how many deviations of odometry away poses are tried
-    search_penalty: float = 0.01  # share of points that outweighs one squared deviation
-    starts: int = 4  # poses found by search that are refined
-    max_turn: float = math.pi / 2  # [rad] never search farther
-    max_place: float = 1.6  # [m] never search farther
     widths: tuple[float, ...] = (0.5, 0.35, 0.25, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.05, 0.05, 0.05)  # [m]
-    deviation: float = 0.1  # [m] of one sampled point; neighbors err alike, so it is more than a range's
+    deviation: float = 0.07  # [m] of one sampled point; neighbors err alike, so it is more than a range's
     min_cosine: float = 0.5  # lines less than 60 degrees apart may be the same
     overhang: float = 0.1  # [m] a point may lie this far past the end of its segment
+    tail: float = 4.0  # squared deviations at which odometry loses half its hold
+    penalty: float = 0.03  # share of points that outweighs a unit of log(1 + m^2 / tail)
+    learning_rate: float = 0.1  # largest relative change of the deviations of odometry a step
+    learning_support: float = 0.25  # with less, registration is no judge of odometry
+
+
+class _Guess(NamedTuple):
+    """What odometry says."""
+
+    motion: Pose2  # since the last reading
+    odom_from_base: Pose2
+    place: float  # [m] standard deviation
+    turn: float  # [rad]
+
+    @property
+    def pose(self) -> Array:
+        """As x, y, theta."""
+        return np.array([self.odom_from_base.x, self.odom_from_base.y, self.odom_from_base.theta])
+
+    @property
+    def information(self) -> Array:
+        """Inverse covariance, (3, 3)."""
+        return np.diag([self.place**-2, self.place**-2, self.turn**-2])
+
+    def distance(self, pose: Array) -> float:
+        """Return the squared distance of a pose in deviations."""
+        dx, dy, dtheta = (pose - self.pose).tolist()
+        return (dx**2 + dy**2) / self.place**2 + wrap_angle(dtheta) ** 2 / self.turn**2
+
+
+class _Samples(NamedTuple):
+    """Points along the shapes of a scan, in the base frame."""
+
+    points: Array  # (n, 2)
+    directions: Array  # (n, 2)
+    weights: Array  # (n,)
+
+
+class _Fit(NamedTuple):
+    """A refined pose."""
+
+    pose: Array  # (3,) x, y, theta
+    hessian: Array  # (3, 3)
+    support: float  # sum of weights of the points that lie on known shapes
+    error: float  # weighted sum of their squared distances [m^2]
 
 
 def register(
@@ -76,42 +114,18 @@ def register(
 
     With an empty map, or shapes that match nothing, the motion is that of odometry.
     """
-    from pilotage.kernels.point_to_segment import refine_pose
     from pilotage.kernels.segment_sampling import sample_segments
 
-    before = perception_map.odometry
-    motion = before.odom_from_base.inverse() @ odometry.odom_from_base if before else Pose2.identity()
-    guess_pose = perception_map.odom_from_base @ motion
-    guess = np.array([guess_pose.x, guess_pose.y, guess_pose.theta])
-    place, turn = settings.noise.deviations(motion)
-    information = np.diag([place**-2, place**-2, turn**-2]) * settings.deviation**2
-    points, directions, weights, _ = sample_segments(segments_of(shapes), settings.sample_step)
-    if len(points) == 0 or len(perception_map.segments) == 0:
-        return _unregistered(shapes, perception_map, odometry, guess_pose, (place, turn))
-
-    known = perception_map.segment_field
-    starts = np.vstack(
-        [guess, _search((points, directions, weights), perception_map, guess, (place, turn), settings)]
-    )
-    refined = [
-        refine_pose(
-            points,
-            directions,
-            weights,
-            known,
-            start,
-            guess,
-            information,
-            np.array(settings.widths),
-            settings.min_cosine,
-            settings.overhang,
-        )
-        for start in starts
-    ]
-    pose, hessian, support, error = max(refined, key=lambda result: result[2])
-    odom_from_base = Pose2(*pose.tolist())
-    correspondences = _correspondences(shapes, perception_map, odom_from_base, settings)
+    guess = _predict(perception_map, odometry)
+    samples = _Samples(*sample_segments(segments_of(shapes), settings.sample_step)[:3])
+    if len(samples.points) == 0 or len(perception_map.segments) == 0:
+        return _unregistered(shapes, perception_map, odometry, guess)
+    fit = _best_fit(samples, perception_map, guess, settings)
+    odom_from_base = Pose2(*fit.pose.tolist())
+    correspondences = find_correspondences(shapes, perception_map, odom_from_base, settings.sample_step)
     matched = {correspondence.seen for correspondence in correspondences}
+    information = fit.hessian / settings.deviation**2 + guess.information
+    support = fit.support / float(samples.weights.sum())
     return Registration(
         odometry,
         odom_from_base,
@@ -119,104 +133,138 @@ def register(
         shapes,
         correspondences,
         unmatched=tuple(index for index in range(len(shapes)) if index not in matched),
-        support=float(support / weights.sum()),
-        residual=math.sqrt(error / support) if support > 0.0 else 0.0,
-        covariance=frozen_array(np.linalg.inv(hessian + information) * settings.deviation**2),
+        support=support,
+        residual=math.sqrt(fit.error / fit.support) if fit.support > 0.0 else 0.0,
+        covariance=frozen_array(np.linalg.inv(information)),
+        noise=_learn(perception_map.noise, guess, fit, settings)
+        if support >= settings.learning_support
+        else perception_map.noise,
     )
 
 
+def _predict(perception_map: PerceptionMap, odometry: Odometry) -> _Guess:
+    """Carry the last pose on by what odometry reports since."""
+    before = perception_map.odometry
+    motion = before.odom_from_base.inverse() @ odometry.odom_from_base if before else Pose2.identity()
+    return _Guess(motion, perception_map.odom_from_base @ motion, *perception_map.noise.deviations(motion))
+
+
 def _unregistered(
-    shapes: tuple[PartialShape, ...],
-    perception_map: PerceptionMap,
-    odometry: Odometry,
-    odom_from_base: Pose2,
-    deviations: tuple[float, float],
+    shapes: tuple[PartialShape, ...], perception_map: PerceptionMap, odometry: Odometry, guess: _Guess
 ) -> Registration:
     """Believe odometry alone."""
-    place, turn = deviations
     return Registration(
         odometry,
-        odom_from_base,
-        perception_map.odom_from_base.inverse() @ odom_from_base,
+        guess.odom_from_base,
+        guess.motion,
         shapes,
         correspondences=(),
         unmatched=tuple(range(len(shapes))),
         support=0.0,
         residual=0.0,
-        covariance=np.diag([place**2, place**2, turn**2]),
+        covariance=frozen_array(np.linalg.inv(guess.information)),
+        noise=perception_map.noise,
     )
+
+
+def _best_fit(
+    samples: _Samples, perception_map: PerceptionMap, guess: _Guess, settings: RegistrationSettings
+) -> _Fit:
+    """Refine the guess and the poses found round it; take the one best supported, and least against odometry.
+
+    If none is well supported, search as far as the robot can have gone.
+    """
+    total = float(samples.weights.sum())
+
+    def quality(fit: _Fit) -> float:
+        surprise = math.log1p(guess.distance(fit.pose) / settings.tail)
+        return fit.support / total - settings.penalty * surprise
+
+    search = settings.search
+    window = (
+        min(search.reach * guess.place, search.max_place),
+        min(search.reach * guess.turn, search.max_turn),
+    )
+    starts = _search(samples, perception_map, guess, window, settings)
+    fits = _refine(samples, perception_map, guess, np.vstack([guess.pose, starts]), settings)
+    if max(fit.support for fit in fits) < search.lost_support * total:
+        distance = math.hypot(guess.motion.x, guess.motion.y)
+        place, turn = OdometryNoise().deviations(guess.motion)
+        unsure = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
+        window = (search.lost_place + search.lost_place_per_meter * distance, search.lost_turn)
+        starts = _search(samples, perception_map, unsure, window, settings)
+        fits += _refine(samples, perception_map, guess, starts, settings)
+    return max(fits, key=quality)
 
 
 def _search(
-    samples: tuple[Array, Array, Array],
+    samples: _Samples,
     perception_map: PerceptionMap,
-    guess: Array,
-    deviations: tuple[float, float],
+    guess: _Guess,
+    window: tuple[float, float],
     settings: RegistrationSettings,
 ) -> Array:
     """Find poses from which refinement may start, (n, 3)."""
-    from pilotage.kernels.pose_search import likely_turns, search_poses
+    from pilotage.kernels.pose_search import search_poses
 
-    place, turn = deviations
-    every = max(1, len(samples[0]) // settings.search_points)
+    search = settings.search
+    every = max(1, len(samples.points) // search.points)
     chosen = slice(every // 2, None, every)
-    points, directions, weights = (np.ascontiguousarray(a[chosen]) for a in samples)
-    turns = likely_turns(
-        directions,
-        weights,
-        perception_map.segment_field,
-        guess[2],
-        min(settings.search_deviations * turn, settings.max_turn),
-        settings.search_bins,
-        settings.search_turns,
-    )
-    return search_poses(
+    points, directions, weights = (np.ascontiguousarray(values[chosen]) for values in samples)
+    poses: Array = search_poses(
         points,
         directions,
         weights,
         perception_map.segment_field,
-        guess,
-        turns,
-        turn,
-        place,
-        min(settings.search_deviations * place, settings.max_place),
-        settings.search_step,
-        settings.search_width,
+        guess.pose,
+        np.array([guess.place, guess.turn]),
+        np.array(window),
+        search.turn_step,
+        search.stride,
+        search.width,
         settings.min_cosine,
-        settings.search_penalty,
-        settings.starts,
+        settings.penalty,
+        settings.tail,
+        search.count,
     )
+    return poses
 
 
-def _correspondences(
-    shapes: tuple[PartialShape, ...],
+def _refine(
+    samples: _Samples,
     perception_map: PerceptionMap,
-    odom_from_base: Pose2,
+    guess: _Guess,
+    starts: Array,
     settings: RegistrationSettings,
-) -> tuple[Correspondence, ...]:
-    """Pair each perceived shape with the known shape that most of it lies on, if any does."""
-    from pilotage.kernels.segment_field import NONE, find_nearest
-    from pilotage.kernels.segment_sampling import sample_segments
+) -> list[_Fit]:
+    """Refine each start, point to segment."""
+    from pilotage.kernels.point_to_segment import refine_pose
 
-    moved = tuple(shape.moved(odom_from_base) for shape in shapes)
-    points, directions, weights, owners = sample_segments(segments_of(moved), settings.sample_step)
-    known = perception_map.segment_field
-    nearest = find_nearest(points, directions, known, settings.min_cosine)
-    offsets = points - known.segments[nearest, :2]
-    ways = known.directions[nearest]
-    distance = np.abs(ways[:, 0] * offsets[:, 1] - ways[:, 1] * offsets[:, 0])
-    hit = (nearest != NONE) & (distance <= perception_map.settings.cover_distance)
-    seen = np.repeat(np.arange(len(shapes)), [len(shape.polyline.segment_lengths) for shape in shapes])[
-        owners
+    return [
+        _Fit(
+            *refine_pose(
+                *samples,
+                perception_map.segment_field,
+                start,
+                guess.pose,
+                guess.information * settings.deviation**2,
+                settings.tail * settings.deviation**2,
+                np.array(settings.widths),
+                settings.min_cosine,
+                settings.overhang,
+            )
+        )
+        for start in starts
     ]
-    pairs = np.stack([seen, perception_map.shape_of_segment[nearest]])[:, hit]
-    columns = len(perception_map.shapes)
-    keys, inverse = np.unique(pairs[0] * columns + pairs[1], return_inverse=True)
-    overlap = np.bincount(inverse, weights[hit], len(keys)) * settings.sample_step
-    squares = np.bincount(inverse, weights[hit] * distance[hit] ** 2, len(keys)) * settings.sample_step
-    best: dict[int, Correspondence] = {}
-    for key, length, square in zip(keys.tolist(), overlap.tolist(), squares.tolist(), strict=True):
-        found = Correspondence(key // columns, key % columns, length, math.sqrt(square / length))
-        if found.seen not in best or best[found.seen].overlap < length:
-            best[found.seen] = found
-    return tuple(best[index] for index in sorted(best))
+
+
+def _learn(noise: OdometryNoise, guess: _Guess, fit: _Fit, settings: RegistrationSettings) -> OdometryNoise:
+    """Judge odometry where the scan does: across the walls, that is, and not along a corridor."""
+    hessian = fit.hessian
+    across = hessian[:2, :2] - np.outer(hessian[:2, 2], hessian[:2, 2]) / max(
+        hessian[2, 2], np.finfo(float).tiny
+    )
+    best_seen = np.linalg.eigh(across)[1][:, 1]
+    place_error = float(best_seen @ (fit.pose - guess.pose)[:2])
+    turn_error = wrap_angle(float(fit.pose[2] - guess.pose[2]))
+    return noise.learned(guess.motion, place_error, turn_error, settings.learning_rate)

@@ -7,6 +7,7 @@ PerceptionMap().merged(registration) -> PerceptionMap
 """
 
 from pilotage.perception.correspondence import Correspondence, Registration
+from pilotage.perception.odometry_noise import OdometryNoise
 from pilotage.perception.perceive import PerceptionSettings, perceive
 from pilotage.perception.perception_map import PerceptionMap, PerceptionMapSettings
 from pilotage.perception.scan import LaserScan, Odometry, Reading
@@ -16,6 +17,7 @@ __all__ = [
     "Correspondence",
     "LaserScan",
     "Odometry",
+    "OdometryNoise",
     "PerceptionMap",
     "PerceptionMapSettings",
     "PerceptionSettings",

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from pilotage.geometry import Array, Pose2
+from pilotage.perception.odometry_noise import OdometryNoise
 from pilotage.perception.scan import Odometry
 from pilotage.shape.partial import PartialShape
 
@@ -34,3 +35,4 @@ class Registration:
     support: float  # [0..1] share of the length of all shapes that lies on known ones
     residual: float  # [m] root mean square distance of what does
     covariance: Array  # (3, 3) of x, y, theta of `odom_from_base` [m, m, rad]
+    noise: OdometryNoise  # how far odometry errs, as learnt so far

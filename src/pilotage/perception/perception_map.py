@@ -13,6 +13,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2
 from pilotage.perception.correspondence import Registration
+from pilotage.perception.odometry_noise import OdometryNoise
 from pilotage.perception.scan import Odometry
 from pilotage.shape.partial import PartialShape
 
@@ -60,6 +61,7 @@ class PerceptionMap:
     traveled: float = 0.0  # [m] of way so far
     odom_from_base: Pose2 = field(default_factory=Pose2.identity)
     odometry: Odometry | None = None  # the raw reckoning of the last reading; None before the first
+    noise: OdometryNoise = field(default_factory=OdometryNoise)  # how far the reckoning errs
     odom_from_key: Pose2 | None = None  # where the last scan was entered
 
     @cached_property
@@ -91,6 +93,7 @@ class PerceptionMap:
             traveled=self.traveled + math.hypot(motion.x, motion.y),
             odom_from_base=registration.odom_from_base,
             odometry=registration.odometry,
+            noise=registration.noise,
         )
         if not self._is_key(registration.odom_from_base):
             moved.__dict__.update({name: self.__dict__[name] for name in _DERIVED if name in self.__dict__})
