@@ -6,7 +6,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2
 from pilotage.perception import Correspondence, PerceptionMap
-from pilotage.perception.perception_map import segments_of
+from pilotage.perception.perception_map import segment_owners, segments_of
 from pilotage.shape.partial import PartialShape
 
 
@@ -29,9 +29,7 @@ def find_correspondences(
     nearest = find_nearest(points, directions, known, settings.min_cosine)
     distance = _distance_from_line(points, known.segments[nearest], known.directions[nearest])
     hit = (nearest != NONE) & (distance <= settings.cover_distance)
-    seen = np.repeat(np.arange(len(shapes)), [len(shape.polyline.segment_lengths) for shape in shapes])[
-        owners
-    ]
+    seen = segment_owners(shapes)[owners]
     columns = len(perception_map.shapes)
     pair = seen[hit] * columns + perception_map.shape_of_segment[nearest[hit]]
     pairs, inverse = np.unique(pair, return_inverse=True)

@@ -44,6 +44,7 @@ class SearchSettings:
     lost_place_per_meter: float = (
         2.2  # [m/m] and so much of the motion: a robot may have gone back instead of on
     )
+    max_lost_place: float = 5.0  # [m] never search farther: the map ends soon, and odometry may jump by miles
     lost_turn: float = math.radians(60.0)  # [rad]
 
 
@@ -84,7 +85,7 @@ class _Guess(NamedTuple):
     def distance(self, pose: Array) -> float:
         """Return the squared distance of a pose in deviations."""
         dx, dy, dtheta = (pose - self.pose).tolist()
-        return (dx**2 + dy**2) / self.place**2 + wrap_angle(dtheta) ** 2 / self.turn**2
+        return float((dx**2 + dy**2) / self.place**2 + wrap_angle(dtheta) ** 2 / self.turn**2)
 
 
 class _Samples(NamedTuple):
@@ -191,7 +192,8 @@ def _best_fit(
         distance = math.hypot(guess.motion.x, guess.motion.y)
         place, turn = OdometryNoise().deviations(guess.motion)
         unsure = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
-        window = (search.lost_place + search.lost_place_per_meter * distance, search.lost_turn)
+        reach = search.lost_place + search.lost_place_per_meter * distance
+        window = (min(reach, search.max_lost_place), search.lost_turn)
         starts = _search(samples, perception_map, unsure, window, settings)
         fits += _refine(samples, perception_map, guess, starts, settings)
     return max(fits, key=quality)

@@ -6,7 +6,7 @@ import numpy as np
 
 from pilotage.geometry import Polyline
 from pilotage.perception.scan import LaserScan
-from pilotage.perception.segmentation import SegmentationSettings, split_scan
+from pilotage.perception.segmentation import SegmentationSettings, find_runs, points_in_laser
 from pilotage.shape.partial import PartialShape
 
 
@@ -32,20 +32,15 @@ def perceive(scan: LaserScan, settings: PerceptionSettings) -> tuple[PartialShap
     """
     from pilotage.kernels.evolution_compiled import evolve_runs
 
-    shapes = split_scan(scan, settings.segmentation)
-    if not shapes:
+    runs = find_runs(scan, settings.segmentation)
+    if not runs:
         return ()
-    vertices = [shape.polyline.vertices for shape in shapes]
-    starts = np.cumsum([0, *map(len, vertices)])
-    closed = np.array([shape.polyline.closed for shape in shapes])
-    keep = evolve_runs(np.concatenate(vertices), starts, closed, settings.min_relevance)
+    points = scan.base_from_laser @ points_in_laser(scan)
+    vertices = points[np.concatenate([run.beams for run in runs])]
+    starts = np.cumsum([0, *(len(run.beams) for run in runs)])
+    closed = np.array([run.closed for run in runs])
+    keep = evolve_runs(vertices, starts, closed, settings.min_relevance)
     return tuple(
-        PartialShape(
-            Polyline(
-                shape.polyline.vertices[keep[start : start + len(shape.polyline)]], shape.polyline.closed
-            ),
-            shape.first_end,
-            shape.last_end,
-        )
-        for shape, start in zip(shapes, starts.tolist(), strict=False)
+        PartialShape(Polyline(vertices[start:end][keep[start:end]], run.closed), run.first_end, run.last_end)
+        for run, start, end in zip(runs, starts[:-1].tolist(), starts[1:].tolist(), strict=True)
     )

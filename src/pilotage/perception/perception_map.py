@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Pose2
 from pilotage.perception.correspondence import Registration
@@ -77,9 +78,9 @@ class PerceptionMap:
         return build_segment_field(self.segments, self.settings.cell, self.settings.reach)
 
     @cached_property
-    def shape_of_segment(self) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    def shape_of_segment(self) -> NDArray[np.intp]:
         """Index of the shape each segment belongs to, (m,)."""
-        return np.repeat(np.arange(len(self.shapes)), [len(s.polyline.segment_lengths) for s in self.shapes])
+        return segment_owners(self.shapes)
 
     def merged(self, registration: Registration) -> "PerceptionMap":
         """Enter what a registered scan shows.
@@ -152,4 +153,12 @@ def segments_of(shapes: tuple[PartialShape, ...]) -> Array:
     if not shapes:
         return np.empty((0, 4))
     rings = [shape.polyline.ring for shape in shapes]
-    return np.concatenate([np.hstack([ring[:-1], ring[1:]]) for ring in rings])
+    vertices = np.concatenate(rings)
+    segments = np.hstack([vertices[:-1], vertices[1:]])
+    between_shapes = np.cumsum([len(ring) for ring in rings[:-1]], dtype=np.intp) - 1
+    return np.delete(segments, between_shapes, axis=0)
+
+
+def segment_owners(shapes: tuple[PartialShape, ...]) -> NDArray[np.intp]:
+    """Return the index of the shape that each segment of `segments_of` belongs to, (m,)."""
+    return np.repeat(np.arange(len(shapes)), [len(shape.polyline.ring) - 1 for shape in shapes])

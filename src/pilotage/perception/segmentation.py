@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array
 from pilotage.perception.scan import LaserScan
-from pilotage.shape.partial import EndCause, PartialShape
+from pilotage.shape.partial import EndCause
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,38 +51,27 @@ class Run:
     last_end: EndCause
 
 
-def split_scan(scan: LaserScan, settings: SegmentationSettings) -> tuple[PartialShape, ...]:
-    """Join neighboring returns and break where there is none and at shadow edges; in the base frame.
-
-    Each shape runs counter-clockwise round the laser, so that free space is on its left. A return without a
-    neighbor is no shape.
-    """
-    return tuple(
-        PartialShape(
-            Polyline(scan.base_from_laser @ points_in_laser(scan)[run.beams], run.closed),
-            run.first_end,
-            run.last_end,
-        )
-        for run in find_runs(scan, settings)
-    )
-
-
 def points_in_laser(scan: LaserScan) -> Array:
     """Return the point of every beam in the laser's frame, (n, 2) [m]; the laser where none returned."""
-    ranges = np.where(scan.returned, scan.ranges, 0.0)
-    return np.column_stack([ranges * np.cos(scan.directions), ranges * np.sin(scan.directions)])
+    ranges, directions = np.where(scan.returned, scan.ranges, 0.0), scan.directions
+    return np.column_stack([ranges * np.cos(directions), ranges * np.sin(directions)])
 
 
 def find_runs(scan: LaserScan, settings: SegmentationSettings) -> tuple[Run, ...]:
-    """Find the runs of beams whose neighboring returns belong together."""
+    """Join neighboring returns and break where there is none and at shadow edges.
+
+    Each run goes counter-clockwise round the laser, so that free space is on its left. A return without a
+    neighbor is in none.
+    """
     from pilotage.kernels.segmentation import link_returns
 
     n = len(scan)
     order = np.arange(n) if scan.angle_increment >= 0.0 else np.arange(n)[::-1]
     wraps = n > 2 and abs(n * abs(scan.angle_increment) - math.tau) < abs(scan.angle_increment) / 2
+    ranges = scan.ranges[order]
     linked = link_returns(
         points_in_laser(scan)[order],
-        scan.returned[order],
+        np.isfinite(ranges),
         wraps,
         settings.max_shadow,
         settings.max_grazing,
@@ -95,8 +84,8 @@ def find_runs(scan: LaserScan, settings: SegmentationSettings) -> tuple[Run, ...
         Run(
             order[beams],
             closed=False,
-            first_end=_end_cause(scan.ranges[order], beams[0], -1, wraps=wraps),
-            last_end=_end_cause(scan.ranges[order], beams[-1], 1, wraps=wraps),
+            first_end=_end_cause(ranges, beams[0], -1, wraps=wraps),
+            last_end=_end_cause(ranges, beams[-1], 1, wraps=wraps),
         )
         for beams in _linked_beams(linked)
     )
