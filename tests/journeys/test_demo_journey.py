@@ -6,6 +6,7 @@ import math
 import pytest
 
 from pilotage import demo, open_map
+from pilotage.cli.demo import claim
 
 
 @pytest.fixture(scope="module")
@@ -26,19 +27,21 @@ def test_the_demo_finds_the_robot_and_says_so(pilotage, tmp_path, truth):
     assert (tmp_path / "demo" / "where.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_demo_makes_its_own_files_anew_and_no_others(pilotage, tmp_path, monkeypatch):
-    monkeypatch.setattr("pilotage.cli.demo.read_stretch", lambda log, _first, _last: few_of(log))
-    folder = tmp_path / "mine"
-    folder.mkdir()
-    (folder / "estimates.jsonl").write_text("precious")
+def test_the_demo_leaves_files_of_others_alone(pilotage, tmp_path):
+    precious = tmp_path / "estimates.jsonl"
+    precious.write_text("precious")
 
-    assert 1 == pilotage("demo", "-o", folder).code
-    assert "precious" == (folder / "estimates.jsonl").read_text()
-    assert ["estimates.jsonl"] == [path.name for path in folder.iterdir()]
+    assert 1 == pilotage("demo", "-o", tmp_path).code
+    assert "precious" == precious.read_text()
+    assert [precious] == list(tmp_path.iterdir())
 
 
-def few_of(log):
-    raise AssertionError(f"{log} was read before the folder was looked at")
+def test_the_demo_may_make_its_own_files_anew(tmp_path):
+    file = tmp_path / "demo" / "where.png"
+    claim(file.parent, [file], force=False)
+    file.write_text("made by the demo")
+
+    claim(file.parent, [file], force=False)
 
 
 def test_the_packed_drawing_has_its_cells_named():
