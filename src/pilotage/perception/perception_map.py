@@ -31,7 +31,7 @@ class PerceptionMapSettings:
     key_turn: float = math.radians(10.0)  # [rad] or turned so much since the last one that was
     cover_distance: float = 0.12  # [m] a shape is covered where a newer one runs its way within this
     cover_share: float = 0.7  # [0..1] of its length: then the newer one replaces it
-    reach: float = 1.0  # [m] how far from a shape its nearest segment is known
+    reach: float = 0.6  # [m] how far from a shape its nearest segment is known
     cell: float = 0.1  # [m] how exactly
     sample_step: float = 0.1  # [m] between the points that tell whether a shape is covered
     min_cosine: float = 0.7  # lines less than 45 degrees apart run the same way
