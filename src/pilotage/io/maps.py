@@ -3,13 +3,20 @@
 import os
 from pathlib import Path
 
+from pilotage.io.raster import SUFFIXES, read_map_server, read_raster
 from pilotage.io.svg import read_svg
 from pilotage.maps import SchematicMap
 
 
 def open_map(path: str | os.PathLike[str]) -> SchematicMap:
-    """Read a drawing: SVG (also gzipped).
+    """Read a drawing: SVG (also gzipped), a picture (PNG, PGM, JPEG, ...) or a ROS map_server YAML file.
 
     Raises FileError if the file is missing, of another kind, or shows no stroke.
     """
-    return read_svg(Path(path))
+    file = Path(path)
+    suffix = file.suffix.lower()
+    if suffix in SUFFIXES:
+        return read_raster(file)
+    if suffix in (".yaml", ".yml"):
+        return read_map_server(file)
+    return read_svg(file)

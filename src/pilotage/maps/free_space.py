@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import rustworkx
 import shapely
 from numpy.typing import NDArray
 
@@ -65,19 +66,20 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
 
 def significant(sketch: SchematicMap, blob: float) -> list[Polyline]:
     """Leave out groups of touching strokes that are smaller than a blob; keep all if all are."""
-    lines = shapely.linestrings
-    drawn = np.array([lines(stroke.ring) for stroke in sketch.strokes])
-    groups = np.arange(len(drawn))
-    for first, second in zip(*shapely.STRtree(drawn).query(drawn, predicate="intersects"), strict=True):
-        groups[groups == groups[second]] = groups[first]
-    kept = []
-    for group in np.unique(groups):
-        left, bottom, right, top = shapely.total_bounds(drawn[groups == group])
-        if np.hypot(right - left, top - bottom) >= blob * sketch.diagonal:
-            kept.append(group)
-    return [stroke for stroke, group in zip(sketch.strokes, groups, strict=True) if group in kept] or list(
-        sketch.strokes
-    )
+    drawn = np.array([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    touching = rustworkx.PyGraph()
+    touching.add_nodes_from(range(len(drawn)))
+    pairs = shapely.STRtree(drawn).query(drawn, predicate="intersects").T
+    touching.add_edges_from_no_data([(int(a), int(b)) for a, b in pairs if a < b])
+    bounds = shapely.bounds(drawn)
+    least = blob * sketch.diagonal
+    kept: set[int] = set()
+    for group in rustworkx.connected_components(touching):
+        members = bounds[sorted(group)]
+        width, height = members[:, 2:].max(axis=0) - members[:, :2].min(axis=0)
+        if np.hypot(width, height) >= least:
+            kept |= group
+    return [sketch.strokes[index] for index in sorted(kept)] or list(sketch.strokes)
 
 
 def segments_of(strokes: tuple[Polyline, ...]) -> Array:
@@ -89,9 +91,10 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     """Take what closed contours enclose by the even-odd rule; all else is solid, nothing outside."""
     walls = segments_of(strokes)
     tessellation = tessellate(walls)
-    rings = shapely.linestrings([stroke.ring for stroke in strokes if stroke.closed])
-    region = shapely.build_area(shapely.multilinestrings(rings))
-    inside = shapely.contains_properly(region, shapely.point_on_surface(tessellation.pieces))
+    rings = shapely.make_valid([shapely.Polygon(stroke.vertices) for stroke in strokes])
+    points = shapely.point_on_surface(tessellation.pieces)
+    held, _ = shapely.STRtree(rings).query(points, predicate="within")
+    inside = np.bincount(held, minlength=len(points)) % 2 == 1
     diagonal = float(np.hypot(*np.ptp(walls.reshape(-1, 2), axis=0)))
     return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool), diagonal)
 

@@ -12,16 +12,19 @@ from pilotage.maps.tessellation import Tessellation
 
 @dataclass(frozen=True, slots=True)
 class MergeSettings:
-    """When an opening separates two cells: it narrows both, or it is the mouth of something deep."""
+    """When an opening separates two cells: it narrows, has depth behind it, or stands between jambs."""
 
-    narrowing: float = 1.5  # both sides are this many times as wide as the opening: a door
-    mouth: float = 1.6  # or one side is this many times as wide as the opening ...
-    depth: float = 0.4  # ... and the smaller has this area, in squares over the opening
+    narrowing: float = 1.4  # both sides are this many times as wide as the opening: a door
+    mouth: float = 1.8  # or one side is this many times as wide as the opening ...
+    mouth_depth: float = 0.3  # ... and the smaller side has this area, in squares over the opening
+    jambs: float = 1.35  # or free space widens this many times just beside the opening, on both sides, ...
+    jambs_narrowing: float = 1.1  # ... both sides are this many times as wide ...
+    jambs_depth: float = 0.9  # ... and the smaller has this area
     least_area: float = 0.001  # and no cell is smaller than this share of all free space
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("narrowing", "mouth", "depth", "least_area"):
+        for name in self.__slots__:
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
 
@@ -33,6 +36,7 @@ class Regions:
         self.reaches: list[float] = tessellation.reaches.tolist()
         self.areas: list[float] = tessellation.areas.tolist()
         self.widths: list[float] = tessellation.widths.tolist()
+        self.jambs: list[float] = tessellation.jambs.tolist()
         self.region_of = np.where(among, np.arange(len(among)), -1)
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
         self.age = [0] * len(among)
@@ -49,10 +53,17 @@ class Regions:
             return smaller / least
         opening = sum(self.widths[chord] for chord in self.chords_to[first][second])
         narrow, wide = sorted((self.reaches[first], self.reaches[second]))
-        narrowing = narrow / opening / settings.narrowing
-        mouth = wide / opening / settings.mouth
-        depth = smaller / opening**2 / settings.depth
-        return max(narrowing, min(mouth, depth))
+        narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
+        jambs = self.jambs[max(self.chords_to[first][second], key=lambda chord: self.widths[chord])]
+        return max(
+            narrowing / settings.narrowing,
+            min(mouth / settings.mouth, depth / settings.mouth_depth),
+            min(
+                jambs / settings.jambs,
+                narrowing / settings.jambs_narrowing,
+                depth / settings.jambs_depth,
+            ),
+        )
 
     def absorb(self, first: int, second: int) -> None:
         """Let the first region take in the second."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
@@ -11,10 +12,16 @@ from pilotage.maps.voronoi import VoronoiDiagram, feet
 SLACK = 1e-3
 """By what share of its width a chord may miss its Voronoi edge, or the end of a wall: ties on the grid."""
 
+SHALLOW = 0.25
+"""By what share of its width the mouth of a shallow niche may miss its Voronoi edge."""
+
+BEHIND_WALLS = 1e-2
+"""Share of a chord at either end that is not looked at when it must not touch a wall."""
+
 
 @dataclass(frozen=True, eq=False)
 class Chords:
-    """Segments across free space from wall to wall; no two cross, the disc over each is free of walls."""
+    """Segments across free space from wall to wall; no two cross."""
 
     segments: Array  # (n, 2, 2)
     widths: Array  # (n,)
@@ -25,7 +32,8 @@ def find_chords(diagram: VoronoiDiagram) -> Chords:
 
     Between two ends of walls that is the straight line, between an end and a wall the perpendicular; between
     two walls clearance has no minimum inside an edge. The mouth of a corridor is such an edge, too: there
-    clearance begins to grow.
+    clearance begins to grow. At the mouth of a shallow niche the sites would come nearest just before
+    the edge begins; there a chord must see its other end and cross no other.
     """
     left, right = diagram.sites[:, 0], diagram.sites[:, 1]
     left_is_end = (left[:, :2] == left[:, 2:]).all(axis=1)
@@ -33,8 +41,15 @@ def find_chords(diagram: VoronoiDiagram) -> Chords:
     ends = np.where(left_is_end[:, None], left[:, :2], right[:, :2])
     across = np.where(left_is_end[:, None], right, left)
     segments = np.stack([ends, feet(ends, across)], axis=1)
-    kept = (left_is_end | right_is_end) & are_minimal(segments, diagram)
-    return without_twins(welded(segments[kept], across[kept]))
+    misses = missed_shares(segments, diagram)
+    misses[~(left_is_end | right_is_end)] = np.inf
+    minimal = misses <= SLACK
+    narrow = without_twins(welded(segments[minimal], across[minimal]))
+    shallow = (misses <= SHALLOW) & ~minimal
+    mouths = without_twins(welded(segments[shallow], across[shallow]))
+    clear = without_crossing(mouths, diagram.segments, narrow)
+    chords = np.concatenate([narrow, clear])
+    return Chords(chords, widths_of(chords))
 
 
 def widths_of(segments: Array) -> Array:
@@ -43,15 +58,15 @@ def widths_of(segments: Array) -> Array:
     return np.asarray(np.hypot(across[:, 0], across[:, 1]))
 
 
-def are_minimal(segments: Array, diagram: VoronoiDiagram) -> NDArray[np.bool_]:
-    """Tell which chords (k, 2, 2) have their middle on their Voronoi edge."""
+def missed_shares(segments: Array, diagram: VoronoiDiagram) -> Array:
+    """Tell how far the middle of each chord (k, 2, 2) lies off its Voronoi edge, in widths of the chord."""
     across = segments[:, 1] - segments[:, 0]
-    widths = widths_of(segments)
     along = np.column_stack([-across[:, 1], across[:, 0]])
     middle = segments.mean(axis=1)
-    reach = [np.einsum("ij,ij->i", diagram.vertices[k] - middle, along) for k in diagram.edges.T]
-    slack = SLACK * widths**2
-    return np.asarray((np.minimum(*reach) <= slack) & (np.maximum(*reach) >= -slack) & (widths > 0.0))
+    ends = [np.einsum("ij,ij->i", diagram.vertices[k] - middle, along) for k in diagram.edges.T]
+    beyond = np.maximum(np.minimum(*ends), -np.maximum(*ends))
+    square = widths_of(segments) ** 2
+    return np.asarray(np.where(square > 0.0, beyond / np.where(square > 0.0, square, 1.0), np.inf))
 
 
 def welded(segments: Array, walls: Array) -> Array:
@@ -64,11 +79,29 @@ def welded(segments: Array, walls: Array) -> Array:
     return moved
 
 
-def without_twins(segments: Array) -> Chords:
+def without_twins(segments: Array) -> Array:
     """Leave out chords that join the same two points as another."""
     swapped = (segments[:, 0, 0] > segments[:, 1, 0]) | (
         (segments[:, 0, 0] == segments[:, 1, 0]) & (segments[:, 0, 1] > segments[:, 1, 1])
     )
     ordered = np.where(swapped[:, None, None], segments[:, ::-1], segments)
-    unique = np.unique(ordered.reshape(-1, 4), axis=0).reshape(-1, 2, 2)
-    return Chords(unique, widths_of(unique))
+    return np.asarray(np.unique(ordered.reshape(-1, 4), axis=0).reshape(-1, 2, 2))
+
+
+def without_crossing(segments: Array, walls: Array, chords: Array) -> Array:
+    """Leave out segments that touch a wall between their ends, or cross a chord or a shorter one of them."""
+    inner = segments + BEHIND_WALLS * (segments[:, ::-1] - segments)
+    lines = shapely.linestrings(inner)
+    obstacles = shapely.linestrings(np.concatenate([walls.reshape(-1, 2, 2), chords]))
+    blocked = np.zeros(len(lines), dtype=bool)
+    blocked[shapely.STRtree(obstacles).query(lines, predicate="intersects")[0]] = True
+    free = np.flatnonzero(~blocked)
+    order = free[np.argsort(widths_of(segments[free]), kind="stable")]
+    kept: list[int] = []
+    first, second = shapely.STRtree(lines[order]).query(lines[order], predicate="intersects")
+    crossed: NDArray[np.bool_] = np.zeros(len(order), dtype=bool)
+    for rank in range(len(order)):
+        if not crossed[rank]:
+            kept.append(int(order[rank]))
+            crossed[second[first == rank]] = True
+    return segments[sorted(kept)]

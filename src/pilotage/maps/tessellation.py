@@ -8,11 +8,9 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
+from pilotage.maps.jambs import find_jambs
 from pilotage.maps.narrowings import find_chords
 from pilotage.maps.voronoi import GRID_STEPS, find_voronoi
-
-NUDGE = 0.01
-"""How far beside a chord its two pieces are looked for, as a share of its width."""
 
 STEPS_A_NODE = 4.0
 """How much coarser than the grid of the Voronoi diagram that of the pieces is: its rounding goes away."""
@@ -25,13 +23,20 @@ class Tessellation:
     pieces: NDArray[np.object_]  # (p,) polygons
     reaches: Array  # (p,) width of the widest disc between walls that is centered in the piece
     areas: Array  # (p,)
-    chords: Array  # (n, 2, 2) each from wall to wall
+    chords: Array  # (n, 2, 2) each from wall to wall, or to where another chord ends on it
     widths: Array  # (n,)
+    jambs: Array  # (n,) how much wider free space is just beside each chord, on its narrower side
     sides: NDArray[np.int64]  # (n, 2) the pieces left and right of each chord
 
     def with_chords(self, kept: NDArray[np.bool_]) -> "Tessellation":
         """Leave the other chords out: what they opened is closed."""
-        return replace(self, chords=self.chords[kept], widths=self.widths[kept], sides=self.sides[kept])
+        return replace(
+            self,
+            chords=self.chords[kept],
+            widths=self.widths[kept],
+            jambs=self.jambs[kept],
+            sides=self.sides[kept],
+        )
 
     def connected(self, among: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Find connected parts among some pieces and number them, (p,); all other pieces get -1."""
@@ -54,25 +59,55 @@ def tessellate(walls: Array) -> Tessellation:
     step = STEPS_A_NODE * float(np.ptp(walls.reshape(-1, 2), axis=0).max()) / GRID_STEPS
     lines = np.vstack([diagram.segments, chords.segments.reshape(-1, 4)]).reshape(-1, 2, 2)
     noded = shapely.union_all(shapely.linestrings(lines), grid_size=step)
-    pieces = np.array(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
-    tree = shapely.STRtree(pieces)
-    sides = find_sides(tree, chords.segments)
-    useful = (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
+    pieces = shapely.orient_polygons(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
+    edges, sides = shared_edges(pieces)
+    open_edges = ~on_walls(edges, diagram.segments, 2.0 * step)
+    openings, sides = join_edges(edges[open_edges], sides[open_edges], chords.segments)
+    widths = np.hypot(*(openings[:, 1] - openings[:, 0]).T)
+    vertices, holders = shapely.STRtree(pieces).query(shapely.points(diagram.vertices), predicate="within")
     reaches = np.zeros(len(pieces))
-    vertices, holders = tree.query(shapely.points(diagram.vertices), predicate="within")
     np.maximum.at(reaches, holders, 2.0 * diagram.clearances[vertices])
-    np.maximum.at(reaches, sides[useful].ravel(), np.repeat(chords.widths[useful], 2))
-    tessellation = Tessellation(pieces, reaches, shapely.area(pieces), chords.segments, chords.widths, sides)
-    return tessellation.with_chords(useful)
+    np.maximum.at(reaches, sides.ravel(), np.repeat(widths, 2))
+    jambs = find_jambs(openings, diagram.segments)
+    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, sides)
 
 
-def find_sides(tree: shapely.STRtree, chords: Array) -> NDArray[np.int64]:
-    """Find the pieces left and right of each chord's middle, (n, 2); -1 where there is none."""
-    across = chords[:, 1] - chords[:, 0]
-    nudge = NUDGE * np.column_stack([-across[:, 1], across[:, 0]])
-    middle = chords.mean(axis=1)
-    sides = np.full((len(chords), 2), -1, dtype=np.int64)
-    for side, points in enumerate((middle + nudge, middle - nudge)):
-        found, pieces = tree.query(shapely.points(points), predicate="within")
-        sides[found, side] = pieces
-    return sides
+def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]:
+    """Find the edges between two pieces, (k, 2, 2), and the pieces left and right of each, (k, 2)."""
+    rings, owners = shapely.get_rings(pieces, return_index=True)
+    points, ring_of = shapely.get_coordinates(rings, return_index=True)
+    following = ring_of[1:] == ring_of[:-1]
+    edges = np.stack([points[:-1], points[1:]], axis=1)[following]
+    owner = owners[ring_of[:-1][following]]
+    forward = edges.reshape(-1, 4)
+    there = {edge: int(piece) for edge, piece in zip(map(tuple, forward.tolist()), owner, strict=True)}
+    back = [there.get((c, d, a, b), -1) for a, b, c, d in forward.tolist()]
+    right = np.array(back, dtype=np.int64)
+    once = (right >= 0) & (owner < right)
+    return edges[once], np.column_stack([owner, right])[once]
+
+
+def on_walls(edges: Array, walls: Array, tolerance: float) -> NDArray[np.bool_]:
+    """Tell which edges (k, 2, 2) lie on a wall (n, 4)."""
+    if len(edges) == 0:
+        return np.zeros(0, dtype=bool)
+    tree = shapely.STRtree(shapely.linestrings(walls.reshape(-1, 2, 2)))
+    near, _ = tree.query(shapely.points(edges.mean(axis=1)), predicate="dwithin", distance=tolerance)
+    found = np.zeros(len(edges), dtype=bool)
+    found[near] = True
+    return found
+
+
+def join_edges(edges: Array, sides: NDArray[np.int64], chords: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Join the edges of one chord between the same two pieces: openings (n, 2, 2) and their sides (n, 2)."""
+    if len(edges) == 0:
+        return np.empty((0, 2, 2)), np.empty((0, 2), dtype=np.int64)
+    chord = shapely.STRtree(shapely.linestrings(chords)).nearest(shapely.points(edges.mean(axis=1)))
+    start = np.einsum("ki,ki->k", edges[:, 0], edges[:, 1] - edges[:, 0])
+    start /= np.hypot(*(edges[:, 1] - edges[:, 0]).T)  # how far along its own direction an edge begins
+    order = np.lexsort((start, sides[:, 1], sides[:, 0], chord))
+    keys = np.column_stack([chord, sides])[order]
+    first = np.append(True, (keys[1:] != keys[:-1]).any(axis=1))
+    last = np.append(first[1:], True)
+    openings = np.stack([edges[order[first], 0], edges[order[last], 1]], axis=1)
+    return openings, sides[order[first]]

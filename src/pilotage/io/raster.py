@@ -1,0 +1,213 @@
+"""Read a drawing from a picture: a filled plan, a line drawing, or a ROS map_server map.
+
+How the kind is recognized, and nowhere else (`recognize`): by what touches the edge of the picture.
+
+- The edge is gray and a good part of the picture is lighter: a plan as robots draw it. What is light is free.
+- Otherwise what differs from the edge is ink. Thin ink is the strokes of a pen of any color (`LINES`).
+- Fat ink is free space itself: light on a dark ground (`LIGHT_IS_FREE`) or dark on light (`DARK_IS_FREE`).
+
+Name a `PictureKind` to override it. A picture is read in pixels from its upper left corner, y up and so below
+0; a resolution that a file claims is never believed, for drawings have none.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.errors import FileError
+from pilotage.geometry import Array, Polyline
+from pilotage.io.tracing import trace_lines
+from pilotage.maps import SchematicMap
+
+Mask = NDArray[np.bool_]
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+SUFFIXES = (".png", ".pgm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
+"""Pictures that can be read."""
+
+LIGHT = 0.9
+"""Share of the range of shades from which on a shade is light: 230 of 255."""
+
+DARK = 0.25
+"""Share of the range of shades up to which a shade is dark."""
+
+FLOOR_SHARE = 0.03
+"""On a gray ground at least this share of a plan is light: less is the glare of a photograph."""
+
+PEN_WIDTH = 0.012
+"""Ink of less mean width than this share of the picture's diagonal is a pen's: 12 pixels of 1000."""
+
+PAPER_SCALE = 0.03
+"""How far light may change across paper, as a share of the diagonal: wider than any pen."""
+
+COARSE_SIGMA = 4.0
+"""Light on paper is smoothed over this many pixels of a picture made as small as that allows."""
+
+LEAST_CONTRAST = 0.1
+"""Ink differs from paper by at least this share of full contrast."""
+
+STAIR = 1.0
+"""How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
+
+OPAQUE = 128
+"""Alpha from which on a pixel is seen."""
+
+
+class PictureKind(Enum):
+    """What a picture means by its shades."""
+
+    RECOGNIZED = "recognized"
+    LIGHT_IS_FREE = "light is free"
+    DARK_IS_FREE = "dark is free"
+    LINES = "lines"
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Colors of a picture from 0 to 1, what is transparent in the color of its edge."""
+
+    colors: Array  # (height, width, 3)
+
+    @property
+    def shades(self) -> Array:
+        """Gray of each pixel, stretched from 0 (darkest) to 1 (lightest), (height, width)."""
+        gray = self.colors.mean(axis=2)
+        low, high = gray.min(), gray.max()
+        return np.asarray((gray - low) / (high - low if high > low else 1.0))
+
+    @property
+    def diagonal(self) -> float:
+        """[pixels]."""
+        height, width = self.colors.shape[:2]
+        return float(np.hypot(height, width))
+
+
+def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> SchematicMap:
+    """Read a picture as a drawing in pixels, y up.
+
+    Raises FileError if it cannot be read or shows neither walls nor free space.
+    """
+    picture = read_picture(path)
+    if kind is PictureKind.RECOGNIZED:
+        kind = recognize(picture)
+    if kind is PictureKind.LINES:
+        return from_lines(find_ink(picture), path)
+    light = picture.shades >= LIGHT
+    return from_free_space(
+        light if kind is PictureKind.LIGHT_IS_FREE else picture.shades < 1.0 - LIGHT + DARK, path
+    )
+
+
+def read_picture(path: Path) -> Picture:
+    """Read the colors of a picture."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with Image.open(path) as image:
+            rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
+    except FileNotFoundError as error:
+        raise FileError("a drawing must be a file that exists", path) from error
+    except (OSError, UnidentifiedImageError, ValueError, Image.DecompressionBombError) as error:
+        raise FileError(f"a picture cannot be read ({error})", path) from error
+    seen = rgba[..., 3] >= OPAQUE
+    colors = rgba[..., :3] / 255.0
+    edge = edge_of(seen)
+    ground = np.median(edge_of(colors)[edge], axis=0) if edge.any() else np.ones(3)
+    return Picture(np.where(seen[..., None], colors, ground))
+
+
+def edge_of(pixels: NDArray[Scalar]) -> NDArray[Scalar]:
+    """List the pixels of the first and last row and column."""
+    return np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+
+
+def recognize(picture: Picture) -> PictureKind:
+    """Tell what a picture means by its shades; the rules stand at the head of this module."""
+    shades = picture.shades
+    ground = float(np.median(edge_of(shades)))
+    if DARK < ground < LIGHT and np.mean(shades >= LIGHT) >= FLOOR_SHARE:
+        return PictureKind.LIGHT_IS_FREE
+    ink = shades < 1.0 - LIGHT + DARK if ground > DARK else shades >= LIGHT
+    if mean_width(ink) < PEN_WIDTH * picture.diagonal:
+        return PictureKind.LINES
+    return PictureKind.DARK_IS_FREE if ground > DARK else PictureKind.LIGHT_IS_FREE
+
+
+def mean_width(ink: Mask) -> float:
+    """Estimate the mean width of marks [pixels]: twice their area over their outline."""
+    padded = np.pad(ink, 1)
+    outline = np.count_nonzero(padded[1:] != padded[:-1]) + np.count_nonzero(padded[:, 1:] != padded[:, :-1])
+    return 2.0 * float(np.count_nonzero(ink)) / max(float(outline), 1.0)
+
+
+def find_ink(picture: Picture) -> Mask:
+    """Find the strokes of a pen of any color on paper of any color, lit unevenly."""
+    from skimage.filters import gaussian, threshold_otsu
+
+    sigma = PAPER_SCALE * picture.diagonal
+    step = max(1, int(sigma / COARSE_SIGMA))
+    coarse = gaussian(picture.colors[::step, ::step], sigma=sigma / step, channel_axis=2, mode="nearest")
+    height, width = picture.colors.shape[:2]
+    paper = coarse.repeat(step, axis=0)[:height].repeat(step, axis=1)[:, :width]
+    contrast = np.abs(picture.colors - paper).max(axis=2)
+    if contrast.max() <= LEAST_CONTRAST:
+        return np.zeros(contrast.shape, dtype=bool)
+    return np.asarray(contrast > max(LEAST_CONTRAST, float(threshold_otsu(contrast))))
+
+
+def from_lines(ink: Mask, path: Path) -> SchematicMap:
+    """Trace the middle of strokes."""
+    strokes = tuple(Polyline(line * (1.0, -1.0)) for line in trace_lines(ink))
+    if not strokes:
+        raise FileError("a line drawing must show at least one stroke, found none", path)
+    return SchematicMap(strokes, source=str(path), y_down=True)
+
+
+def from_free_space(free: Mask, path: Path) -> SchematicMap:
+    """Trace the contours of free space, free space on their left."""
+    from skimage.measure import find_contours
+
+    rows_and_columns = find_contours(np.pad(free, 1).astype(np.float64), 0.5, positive_orientation="high")
+    rings = [np.column_stack([ring[:, 1] - 0.5, 0.5 - ring[:, 0]]) for ring in rows_and_columns]
+    straight = shapely.simplify([shapely.LineString(ring) for ring in rings], STAIR)
+    outlines = [shapely.get_coordinates(ring)[:-1] for ring in straight]
+    strokes = tuple(Polyline(outline, closed=True) for outline in outlines if len(outline) > 2)
+    if not strokes:
+        raise FileError("a filled plan must show free space, found none", path)
+    return SchematicMap(strokes, source=str(path), y_down=True, contours=True)
+
+
+def read_map_server(path: Path) -> SchematicMap:
+    """Read a ROS map_server map: a YAML file that names a picture and says which shades are free.
+
+    Raises FileError if either file cannot be read, or no pixel is free.
+    """
+    entries = read_entries(path)
+    if "image" not in entries:
+        raise FileError("a map_server file must name an image", path)
+    picture = read_picture(path.parent / entries["image"])
+    try:
+        free_below = float(entries.get("free_thresh", "0.196"))
+        negated = bool(int(entries.get("negate", "0")))
+    except ValueError as error:
+        raise FileError(f"a map_server file must give numbers ({error})", path) from error
+    gray = picture.colors.mean(axis=2)
+    occupied = gray if negated else 1.0 - gray
+    return from_free_space(occupied < free_below, path)
+
+
+def read_entries(path: Path) -> dict[str, str]:
+    """Read the plain `key: value` lines of a YAML file."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
+        raise FileError("a drawing must be a file that exists", path) from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(f"a map_server file cannot be read ({error})", path) from error
+    pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
+    return {key.strip(): value.strip().strip("'\"") for key, value in pairs}
