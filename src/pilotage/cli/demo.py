@@ -47,7 +47,7 @@ def demo(
     with estimates_sink(estimates_path, sketch) as write:
         estimates = run(localizer, readings, write)
     truth = read_truth(packed.TRUTH, sketch)
-    draw(sketch, estimates, readings, figure_path, title="A robot found in a drawing", truth=truth)
+    draw(sketch, localizer, estimates, figure_path, title="A robot found in a drawing", truth=truth)
     typer.echo(story(estimates, readings, truth, sketch))
     say(f"See {figure_path} and {estimates_path}.")
 

@@ -67,7 +67,7 @@ def localize(
     with estimates_sink(output, sketch) as write:
         estimates = run(localizer, readings, write)
     if figure is not None:
-        draw(sketch, estimates, readings, figure, title=f"{log.name} in {drawing.name}")
+        draw(sketch, localizer, estimates, figure, title=f"{log.name} in {drawing.name}")
     say(summary(estimates))
 
 

@@ -1,6 +1,5 @@
 """Run a localizer over a log, and tell how it went: what `localize` and `demo` share."""
 
-import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -15,9 +14,6 @@ if TYPE_CHECKING:
     from pilotage.localization import Estimate, Localizer
     from pilotage.maps import SchematicMap
     from pilotage.perception import Reading
-
-LOCAL_WAY = 6.0
-"""The way back along which scans are laid over the drawing in the figure's close view [m]."""
 
 
 def read_stretch(log: Path, first: int, last: int | None) -> "Sequence[Reading]":
@@ -76,36 +72,21 @@ def run(
 
 def draw(
     sketch: "SchematicMap",
+    localizer: "Localizer",
     estimates: "Sequence[Estimate]",
-    readings: "Sequence[Reading]",
     path: Path,
     *,
     title: str,
     truth: "Array | None" = None,
 ) -> None:
-    """Draw the path, and what was seen last."""
+    """Draw the path, and the local map as it is at the end."""
     from pilotage.figures.path import path_figure
     from pilotage.figures.style import save
 
-    figure = path_figure(sketch, estimates, local_map=last_returns(readings), truth=truth, title=title)
-    save(figure, path)
-
-
-def last_returns(readings: "Sequence[Reading]") -> "Array":
-    """Gather the returns of the last metres in the last base frame, carried by odometry, (n, 2) [m]."""
-    import numpy as np
-
-    base_from_odom = readings[-1].odometry.odom_from_base.inverse()
-    way, gathered = 0.0, []
-    following = readings[-1].odometry.odom_from_base
-    for reading in reversed(readings):
-        odom_from_base = reading.odometry.odom_from_base
-        way += math.hypot(odom_from_base.x - following.x, odom_from_base.y - following.y)
-        following = odom_from_base
-        if way > LOCAL_WAY:
-            break
-        gathered.append((base_from_odom @ odom_from_base) @ reading.scan.points_in_base)
-    return np.vstack(gathered)
+    seen = localizer.perception_map
+    base_from_odom = seen.odom_from_base.inverse()
+    local_map = [shape.polyline.moved(base_from_odom) for shape in seen.shapes]
+    save(path_figure(sketch, estimates, local_map=local_map, truth=truth, title=title), path)
 
 
 def summary(estimates: "Sequence[Estimate]") -> str:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
-from pilotage.geometry import Array
+from pilotage.geometry import Array, Polyline
 from pilotage.localization import Estimate, Status
 from pilotage.maps import SchematicMap
 
@@ -20,6 +20,7 @@ JUMP = 0.04
 
 PAGE_WIDTH, PAGE_TALLEST, SIDE_WIDTH = 9.6, 9.0, 2.9  # [inches]
 
+VIEWED_SHARE = 0.9  # of the vertices of the local map lie in the close view
 CLOSEST_VIEW = 4.0  # [m] from the robot to the edge of the close view, at least
 
 
@@ -27,14 +28,14 @@ def path_figure(
     sketch: SchematicMap,
     estimates: Sequence[Estimate],
     *,
-    local_map: Array | None = None,
+    local_map: Sequence[Polyline] = (),
     truth: Array | None = None,
     title: str = "",
 ) -> Figure:
     """Draw the estimated path on the drawing, and beside it what the laser saw last, laid over the drawing.
 
-    `local_map` holds the last returns in the base frame of the last estimate, (n, 2) [m]; `truth` the true
-    path, where it is known, in the sketch frame, (m, 2) [drawing units].
+    `local_map` holds what the robot saw on the last metres, in its base frame [m]; `truth` the true path,
+    where it is known, in the sketch frame, (n, 2) [drawing units].
     """
     if not estimates:
         raise ValueError("a path needs at least one estimate, got none")
@@ -49,7 +50,7 @@ def path_figure(
     style.bare(page, title)
     page.set_anchor("NW")
     side = width + 0.7
-    if local_map is not None and len(local_map):
+    if local_map:
         view = style.place(figure, side, height + 0.3 - SIDE_WIDTH, SIDE_WIDTH, SIDE_WIDTH)
         draw_close_view(view, sketch, estimates[-1], local_map)
     add_confidence_bar(figure, style.place(figure, side, height - SIDE_WIDTH - 0.15, SIDE_WIDTH, 0.1))
@@ -138,13 +139,14 @@ def add_confidence_bar(figure: Figure, axes: Axes) -> None:
     bar.ax.tick_params(labelsize=style.SMALL, length=0)
 
 
-def draw_close_view(axes: Axes, sketch: SchematicMap, estimate: Estimate, local_map: Array) -> None:
-    """Lay what the laser saw last over the drawing around the robot, in the estimate's own scale."""
+def draw_close_view(
+    axes: Axes, sketch: SchematicMap, estimate: Estimate, local_map: Sequence[Polyline]
+) -> None:
+    """Lay what the robot saw last over the drawing around it, in the estimate's own scale."""
     here = estimate.sketch_from_base
-    points = here @ local_map
     draw_strokes(axes, sketch.strokes, linewidth=2.4)
-    axes.scatter(points[:, 0], points[:, 1], s=4.0, color=style.ACCENT, alpha=0.5, linewidths=0.0, zorder=8)
-    reach = np.quantile(np.abs(local_map), 0.95)
+    draw_strokes(axes, [shape.moved(here) for shape in local_map], color=style.ACCENT, linewidth=1.4)
+    reach = np.quantile(np.abs(np.vstack([shape.vertices for shape in local_map])), VIEWED_SHARE)
     half = here.scale * max(CLOSEST_VIEW, float(reach))
     axes.set_xlim(here.pose.x - half, here.pose.x + half)
     axes.set_ylim(here.pose.y - half, here.pose.y + half)
