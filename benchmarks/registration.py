@@ -2,11 +2,11 @@
 
     python benchmarks/registration.py [--logs DIR] [--only LOG ...] [--seed N] [--json FILE]
 
-Pairs of consecutive scans, thinned to a motion of at least 0.5 m or 20 degrees, ranges cut at 30 m. The guess is
-the raw odometry, as it is and spoilt by noise of 30 % of the distance and 20 degrees a meter. Each scan is
-registered into the local map of the scans before it. A step is good when it errs by less than 0.2 m and 3 degrees.
-Settings were chosen on csail, aces, and the first 500 steps of freiburg-079 and infinite-corridor; the rest of
-these two, freiburg-101, belgioioso and fhw were held back.
+Pairs of consecutive scans, thinned to a motion of at least 0.5 m or 20 degrees, ranges cut at 30 m. The guess
+is the raw odometry, as it is and spoilt by noise of 30 % of the distance and 20 degrees a meter. Each scan is
+registered into the local map of the scans before it. A step is good when it errs by less than 0.2 m and
+3 degrees. Settings were chosen on csail, aces, and the first 500 steps of freiburg-079 and infinite-corridor;
+the rest of these two, freiburg-101, belgioioso and fhw were held back.
 """
 
 import argparse
@@ -145,9 +145,7 @@ def score_relations(directory: Path) -> dict[str, float]:
         Trajectory(stamps, poses), read_relations(directory / "freiburg-079.relations")
     ).place
     values = {"mean": float(errors.mean()), "std": float(errors.std())}
-    print(
-        f"freiburg-079.relations: {values['mean']:.3f} +- {values['std']:.3f} m, {len(readings)} scans chained"
-    )
+    print(f"relations: {values['mean']:.3f} +- {values['std']:.3f} m, {len(readings)} scans chained")
     return values
 
 
