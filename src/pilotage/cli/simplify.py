@@ -12,7 +12,7 @@ SHARE = 0.0025
 
 
 def simplify(
-    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing (SVG).")],
+    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
     *,
     share: Annotated[
         float,
