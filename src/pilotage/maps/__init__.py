@@ -5,7 +5,9 @@ from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.decomposition import DecompositionSettings, decompose
 from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, free_space
 from pilotage.maps.merging import MergeSettings
+from pilotage.maps.places import check_place, find_labeled
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
+from pilotage.maps.route import Route, RouteError, RouteSettings, find_route
 from pilotage.maps.schematic import Label, SchematicMap
 
 __all__ = [
@@ -23,8 +25,14 @@ __all__ = [
     "Neighbor",
     "RangeTable",
     "RangeTableSettings",
+    "Route",
+    "RouteError",
+    "RouteSettings",
     "SchematicMap",
     "build_atlas",
+    "check_place",
     "decompose",
+    "find_labeled",
+    "find_route",
     "free_space",
 ]

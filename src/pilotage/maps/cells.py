@@ -118,6 +118,13 @@ class CellGraph:
         """Return the cell of this id; raises KeyError if there is none."""
         return self.cells[self.index_from_id[cell_id]]
 
+    def gateway(self, gateway_id: str) -> Gateway:
+        """Return the gateway of this id; raises KeyError if there is none."""
+        for gateway in self.gateways:
+            if gateway.gateway_id == gateway_id:
+                return gateway
+        raise KeyError(gateway_id)
+
     def cell_indices_at(self, points: Array) -> NDArray[np.int64]:
         """Find which of `cells` each point (n, 2) lies in, else which is nearest, (n,)."""
         found, cells = self.tree.query_nearest(shapely.points(points))

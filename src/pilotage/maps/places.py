@@ -1,0 +1,40 @@
+"""Places on a drawing as people name them: a point, or a word."""
+
+import numpy as np
+
+from pilotage.maps.cells import CellGraph
+from pilotage.maps.route import Point, RouteError
+
+SLACK = 0.005
+"""How far beside a cell a point may lie, as a share of the diagonal: a pencil's width off."""
+
+
+def find_labeled(graph: CellGraph, words: str) -> Point:
+    """Find where to stand in the one cell that bears a label; case does not matter.
+
+    Raises RouteError if no cell or more than one bears it.
+    """
+    wanted = words.casefold().strip()
+    found = [cell for cell in graph.cells if wanted in (word.casefold() for word in cell.label.split(", "))]
+    if len(found) == 1:
+        return found[0].center
+    if found:
+        ids = ", ".join(cell.cell_id for cell in found)
+        raise RouteError(f"the label {words!r} stands in {len(found)} cells ({ids}), name the place as X,Y")
+    known = ", ".join(sorted({cell.label for cell in graph.cells if cell.label})) or "none"
+    raise RouteError(f"the label {words!r} stands in no cell, labels in cells are: {known}")
+
+
+def check_place(graph: CellGraph, point: Point, what: str) -> None:
+    """Refuse a point that lies in no cell; `what` names it in the message.
+
+    Raises RouteError that says whether it lies outside the drawing or where nothing is free.
+    """
+    cell_id = graph.cell_at(point)
+    if graph.distance_to(cell_id, point) <= SLACK * graph.diagonal:
+        return
+    bounds = np.array([cell.polygon.bounds for cell in graph.cells])
+    low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
+    amid = bool((low <= point).all() and (point <= high).all())
+    where = "in a wall or in a place that is not free" if amid else "outside the drawing"
+    raise RouteError(f"the {what} lies {where}, the nearest cell is {cell_id}")
