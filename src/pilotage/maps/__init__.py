@@ -3,7 +3,7 @@
 from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
 from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.decomposition import DecompositionSettings, decompose
-from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, free_space
+from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, NotEnclosedError, free_space
 from pilotage.maps.merging import MergeSettings
 from pilotage.maps.places import check_place, find_labeled
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
@@ -23,6 +23,7 @@ __all__ = [
     "Label",
     "MergeSettings",
     "Neighbor",
+    "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",
     "Route",

@@ -31,7 +31,7 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
 
     Free space is cut wherever clearance has a minimum along its Voronoi diagram, or begins to widen; the
     pieces are merged across all openings that do not separate them. Cells do not overlap; what they leave
-    out is below the least area, open to the outside or solid. Raises ValueError if nothing is enclosed.
+    out is below the least area, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
     """
     space = free_space(sketch, settings.free_space)
     regions = merge_pieces(space.tessellation, space.inside, settings.merging)

@@ -7,6 +7,7 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 
+from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline
 from pilotage.maps.schematic import SchematicMap
 from pilotage.maps.tessellation import Tessellation, tessellate
@@ -14,6 +15,10 @@ from pilotage.shape.simplify import Simplification, simplify_all
 
 FRAME = 0.5
 """How far around the drawing the outside is looked at, as a share of its diagonal: beyond any pocket."""
+
+
+class NotEnclosedError(PilotageError, ValueError):
+    """A drawing holds no free space: no stroke closes a room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +58,14 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
     """Find the free space of a drawing.
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
-    without passing an opening narrower than `outer_opening`. Raises ValueError if nothing is
-    enclosed.
+    without passing an opening narrower than `outer_opening`. Raises
+    NotEnclosedError if nothing is enclosed.
     """
     strokes = [stroke for stroke in significant(sketch, settings.blob) if len(stroke) > 1]
     simplified = simplify_all(strokes, Simplification(settings.detail * sketch.diagonal))
     found = within_contours(simplified) if sketch.contours else within_strokes(simplified, sketch, settings)
     if not found.inside.any():
-        raise ValueError("a drawing must enclose free space, this one encloses none: no closed room")
+        raise NotEnclosedError("a drawing must enclose free space, this one encloses none: no closed room")
     return found
 
 
