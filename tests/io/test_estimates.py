@@ -21,7 +21,7 @@ def test_a_line_holds_what_it_should(tmp_path):
         write(ESTIMATE)
         write(ESTIMATE)
     first, second = path.read_text().splitlines()
-    place = {"x": 30.0, "y": 40.0, "heading": 1.570796, "scale": 20.0}
+    place = {"x": 30.0, "y": 40.0, "heading": 1.57079633, "scale": 20.0}
 
     assert first == second
     assert {

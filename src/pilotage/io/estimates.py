@@ -13,8 +13,8 @@ from pilotage.io.files import replacing
 from pilotage.localization import Estimate
 from pilotage.maps import SchematicMap
 
-DECIMALS = 6
-"""Of positions [drawing units], headings [rad] and shares: finer than any drawing or laser."""
+DIGITS = 9
+"""Significant digits of all numbers but stamps: drawings may be a millimetre wide or a mile."""
 
 
 def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, object]:
@@ -28,12 +28,12 @@ def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, objec
         "status": estimate.status.value,
         "cell": estimate.cell_id,
         **place_record(estimate.sketch_from_base, sketch),
-        "confidence": round(estimate.confidence, DECIMALS),
+        "confidence": rounded(estimate.confidence),
         "hypotheses": [
             {
                 "cell": hypothesis.cell_id,
                 **place_record(hypothesis.sketch_from_base, sketch),
-                "probability": round(hypothesis.probability, DECIMALS),
+                "probability": rounded(hypothesis.probability),
             }
             for hypothesis in estimate.hypotheses
         ],
@@ -45,11 +45,20 @@ def place_record(sketch_from_base: Similarity2, sketch: SchematicMap) -> dict[st
     pose = sketch_from_base.pose
     x, y = sketch.file_from_sketch(np.array([pose.position]))[0]
     return {
-        "x": round(float(x), DECIMALS),
-        "y": round(float(y), DECIMALS),
-        "heading": round(pose.theta, DECIMALS),
-        "scale": round(sketch_from_base.scale, DECIMALS),
+        "x": rounded(float(x)),
+        "y": rounded(float(y)),
+        "heading": rounded(pose.theta),
+        "scale": rounded(sketch_from_base.scale),
     }
+
+
+def rounded(value: float) -> float:
+    """Keep the digits that may mean something.
+
+    >>> rounded(0.1 + 0.2), rounded(123456.7890123)
+    (0.3, 123456.789)
+    """
+    return float(f"{value:.{DIGITS}g}")
 
 
 @contextmanager
