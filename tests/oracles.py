@@ -89,3 +89,74 @@ def segment_dissimilarity(c, d, rotation, largest_run):
         return (weights * differences**2).sum() * max(lc, ld) * max(lc / ld, ld / lc)
 
     return rest(0, 0)
+
+
+def cheapest_match(seen, known, pose, prices):  # noqa: C901 (one closure over one problem)
+    """Try every match of parts of two chains at a pose: each start, each way on, each end, cut or not.
+
+    `seen` and `known` are (vertices, first_goes_on, last_goes_on), `prices` (alpha, lambda, largest run).
+    """
+    (s, s_first, s_last), (k, k_first, k_last) = seen, known
+    alpha, reward, largest_run = prices
+    theta = pose[2]
+    moved = [complex(pose[0], pose[1]) + complex(*point) * cmath.rect(1.0, theta) for point in s]
+    fixed = [complex(*point) for point in k]
+    n, m = len(s) - 1, len(k) - 1
+
+    def apart(i, j):
+        return abs(moved[i] - fixed[j]) ** 2
+
+    def square(i, j):
+        return cmath.phase((fixed[j + 1] - fixed[j]) / (moved[i + 1] - moved[i])) ** 2
+
+    def length(vertices, first, last):
+        return sum(math.dist(a, b) for a, b in pairwise(vertices[first : last + 1]))
+
+    def price(mean_square, ls, lk, distance):
+        return mean_square * max(ls, lk) * max(ls / lk, lk / ls) + min(ls, lk) * (alpha * distance - reward)
+
+    def whole(i, j, i1, j1):
+        """Cost of a step from vertices i, j to i1, j1: one segment against a run."""
+        ls, lk = length(s, i, i1), length(k, j, j1)
+        squares = [
+            (length(s, p, p + 1) * length(k, q, q + 1), square(p, q))
+            for p in range(i, i1)
+            for q in range(j, j1)
+        ]
+        mean = sum(weight * value for weight, value in squares) / sum(weight for weight, _ in squares)
+        return price(mean, ls, lk, (apart(i, j) + apart(i1, j1)) / 2)
+
+    def cut(i, j, distance):
+        shorter = min(length(s, i, i + 1), length(k, j, j + 1))
+        return price(square(i, j), shorter, shorter, distance)
+
+    def may_cut(i, j, *, at_seen_end, at_known_end):
+        ls, lk = length(s, i, i + 1), length(k, j, j + 1)
+        return (at_seen_end and ls <= lk) or (at_known_end and lk <= ls)
+
+    def costs_from(i, j):
+        """Costs of all ways to go on from vertices i, j, with stopping there among them."""
+        yield 0.0
+        for di, dj in {
+            (1, 1),
+            *((r, 1) for r in range(1, largest_run + 1)),
+            *((1, r) for r in range(1, largest_run + 1)),
+        }:
+            if i + di <= n and j + dj <= m:
+                first = whole(i, j, i + di, j + dj)
+                yield from (first + rest for rest in costs_from(i + di, j + dj))
+        if i < n and j < m:
+            at_ends = {"at_seen_end": i == n - 1 and s_last, "at_known_end": j == m - 1 and k_last}
+            if may_cut(i, j, **at_ends):
+                yield cut(i, j, apart(i, j))
+
+    best = 0.0
+    for i in range(n + 1):
+        for j in range(m + 1):
+            best = min(best, *costs_from(i, j))
+            if i < n and j < m:
+                at_ends = {"at_seen_end": i == 0 and s_first, "at_known_end": j == 0 and k_first}
+                if may_cut(i, j, **at_ends):
+                    first = cut(i, j, apart(i + 1, j + 1))
+                    best = min(best, *(first + rest for rest in costs_from(i + 1, j + 1)))
+    return best

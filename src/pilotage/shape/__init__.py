@@ -9,6 +9,7 @@ from pilotage.shape.dissimilarity import (
     dissimilarity,
     sequence_dissimilarity,
 )
+from pilotage.shape.matching import Matching, PartialMatch, match_partial, match_partial_near
 from pilotage.shape.partial import EndCause, PartialShape
 from pilotage.shape.sequence import ArcSequence
 from pilotage.shape.simplify import Simplification, relevances, simplify, simplify_all
@@ -21,13 +22,17 @@ __all__ = [
     "Comparison",
     "EndCause",
     "Lengths",
+    "Matching",
     "Measure",
+    "PartialMatch",
     "PartialShape",
     "Simplification",
     "TangentFunction",
     "arc_dissimilarity",
     "dissimilarity",
     "find_arcs",
+    "match_partial",
+    "match_partial_near",
     "relevances",
     "sequence_dissimilarity",
     "simplify",
