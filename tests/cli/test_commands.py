@@ -7,7 +7,7 @@ import pytest
 
 from pilotage import demo
 
-COMMANDS = ("demo", "localize", "perceive", "settings", "simplify")
+COMMANDS = ("cells", "demo", "localize", "perceive", "settings", "simplify")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

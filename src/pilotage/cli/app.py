@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.cells import cells
 from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
 from pilotage.cli.perceive import perceive
@@ -40,6 +41,7 @@ def common(
     """Hold what all commands share."""
 
 
+app.command()(cells)
 app.command()(demo)
 app.command()(localize)
 app.command()(perceive)
