@@ -13,7 +13,7 @@ from pilotage.figures.scan import scan_figure
 from pilotage.figures.style import new_figure, save
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.localization import Estimate, Hypothesis, Status
-from pilotage.maps import SchematicMap
+from pilotage.maps import Label, SchematicMap
 from pilotage.perception import LaserScan, PerceptionSettings, perceive
 from pilotage.shape import Simplification, simplify_all
 
@@ -65,6 +65,16 @@ def test_the_titles_count_vertices():
 
     assert f"{sum(map(len, sketch.strokes))} vertices" in before.get_title(loc="left")
     assert f"{sum(map(len, evolved))} vertices" in after.get_title(loc="left")
+
+
+def test_words_are_drawn_as_they_are_written(tmp_path):
+    words = ("$5 room$", "a_b^{", "厨房", "%s\\n")
+    labels = tuple(Label(word, (10.0 * k, 5.0)) for k, word in enumerate(words))
+    sketch = SchematicMap((Polyline.through([(0, 0), (40, 0), (40, 9)]),), labels=labels)
+    save(drawing_figure(sketch, sketch.strokes), tmp_path / "drawing.png")
+    save(path_figure(sketch, [estimate(0)], title="$x_1$ in {y}"), tmp_path / "path.png")
+
+    assert (tmp_path / "path.png").exists()
 
 
 def legend_of(figure):

@@ -113,5 +113,6 @@ def draw_names(axes: Axes, graph: CellGraph, points_a_unit: float, route: Route 
         axes.annotate(
             "\n".join(lines), cell.center, (0.0, -MARK if near else 0.0), textcoords="offset points",
             fontsize=float(size), color=style.INK, ha="center", va="center", linespacing=1.15, zorder=12,
+            parse_math=False,
             path_effects=[withStroke(linewidth=1.6, foreground="white", alpha=0.8)],
         )  # fmt: skip

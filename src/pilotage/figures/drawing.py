@@ -67,5 +67,6 @@ def draw_labels(axes: Axes, sketch: SchematicMap) -> None:
     for label in sketch.labels:
         axes.text(
             *label.position, label.text, color=style.GRAY, fontsize=style.TEXT, style="italic",
-            ha="center", va="center", zorder=6, path_effects=[withStroke(linewidth=3.0, foreground="white")],
+            ha="center", va="center", zorder=6, parse_math=False,
+            path_effects=[withStroke(linewidth=3.0, foreground="white")],
         )  # fmt: skip

@@ -1,6 +1,7 @@
 """What all figures share: ink, paper, and a pen that needs no screen."""
 
 import math
+import warnings
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -52,7 +53,7 @@ def bare(axes: Axes, title: str = "") -> None:
     axes.set_yticks([])
     axes.spines[:].set_visible(False)
     if title:
-        axes.set_title(title, fontsize=TITLE, color=INK, loc="left", pad=8)
+        axes.set_title(title, fontsize=TITLE, color=INK, loc="left", pad=8, parse_math=False)
 
 
 def frame(axes: Axes, low: Array, high: Array, margin: float = 0.04) -> None:
@@ -105,5 +106,6 @@ def save(figure: Figure, path: Path | str) -> None:
     kind = Path(path).suffix.lstrip(".").lower()
     if kind not in known:
         raise FileError("a figure's name must end in .png, .svg or .pdf", path)
-    with replacing(path) as beside:
+    with replacing(path) as beside, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # a label in a script that the font lacks
         figure.savefig(beside, format=kind, dpi=DPI)
