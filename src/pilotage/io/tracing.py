@@ -1,7 +1,5 @@
 """Trace the middle of pen strokes in a picture as polylines."""
 
-from itertools import pairwise
-
 import numpy as np
 import rustworkx
 import shapely
@@ -55,30 +53,27 @@ def neighbor_graph(middle: Mask) -> rustworkx.PyGraph:
 
 
 def follow(graph: rustworkx.PyGraph, spur: float) -> list[list[int]]:
-    """Cut a graph of pixels into runs between ends and forks, spurs left out."""
-    nodes = graph.node_indices()
-    degree = {node: graph.degree(node) for node in nodes}
-    used: set[tuple[int, int]] = set()
-    paths = []
-    forks_first = sorted(nodes, key=lambda node: degree[node] == 2)  # a ring without a fork begins anywhere
-    for start in forks_first:
+    """Cut a graph of pixels into runs between ends and forks, spurs left out; a ring is a run, too."""
+    degree = {node: graph.degree(node) for node in graph.node_indices()}
+    walked: set[int] = set()  # inner pixels of runs
+    begun: set[tuple[int, int]] = set()  # first steps of runs, seen from either end
+    runs = []
+    for start in sorted(degree, key=lambda node: degree[node] == 2):  # a ring has no end to begin at
         for following in sorted(graph.neighbors(start)):
-            if (start, following) in used:
+            if start in walked or following in walked or (start, following) in begun:
                 continue
-            path = [start, following]
-            while degree[path[-1]] == 2 and path[-1] != start:
-                onward = [node for node in graph.neighbors(path[-1]) if node != path[-2]]
-                path.append(onward[0])
-            used.update({(path[0], path[1]), (path[-1], path[-2])})
-            is_spur = len(path) - 1 < spur and {degree[path[0]], degree[path[-1]]} & {1} != set()
-            if not (is_spur and max(degree[path[0]], degree[path[-1]]) > 2):
-                paths.append(path)
-        if degree[start] == 2:
-            mark_ring(paths[-1] if paths else [], used)
-    return paths
+            run = run_from(graph, degree, start, following)
+            walked.update(run[1:-1])
+            begun.update({(run[0], run[1]), (run[-1], run[-2])})
+            ends = sorted((degree[run[0]], degree[run[-1]]))
+            if not (len(run) - 1 < spur and ends[0] == 1 and ends[1] > 2):
+                runs.append(run)
+    return runs
 
 
-def mark_ring(path: list[int], used: set[tuple[int, int]]) -> None:
-    """Note all steps of a closed run, so that it is not followed again from another pixel."""
-    for first, second in pairwise(path):
-        used.update({(first, second), (second, first)})
+def run_from(graph: rustworkx.PyGraph, degree: dict[int, int], start: int, following: int) -> list[int]:
+    """Go on from a first step to the next end or fork, or around to the start."""
+    run = [start, following]
+    while degree[run[-1]] == 2 and run[-1] != start:
+        run.append(next(node for node in graph.neighbors(run[-1]) if node != run[-2]))
+    return run

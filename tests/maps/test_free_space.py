@@ -1,0 +1,75 @@
+import numpy as np
+import pytest
+import shapely
+
+from pilotage.geometry import Polyline
+from pilotage.maps import FreeSpaceSettings, NotEnclosedError, SchematicMap, free_space
+
+ROOM = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
+
+
+def found(*strokes, settings=FreeSpaceSettings(), contours=False):  # noqa: B008  # frozen
+    sketch = SchematicMap(
+        tuple(Polyline.through(stroke, closed=contours) for stroke in strokes), contours=contours
+    )
+    return free_space(sketch, settings)
+
+
+def test_a_closed_stroke_encloses_its_room():
+    assert pytest.approx(50.0, rel=1e-6) == found(ROOM).region.area
+
+
+def test_a_wall_amid_a_room_takes_nothing_from_it():
+    assert pytest.approx(50.0, rel=1e-6) == found(ROOM, [(5, 1), (5, 4)]).region.area
+
+
+def test_a_gap_at_a_corner_is_mended():
+    assert (
+        pytest.approx(50.0, rel=0.01) == found([(0.05, 0), (10, 0), (10, 5), (0, 5), (0, 0.05)]).region.area
+    )
+
+
+def test_overshooting_strokes_change_nothing():
+    crossing = [[(-1, 0), (11, 0)], [(10, -1), (10, 6)], [(11, 5), (-1, 5)], [(0, 6), (0, -1)]]
+
+    assert pytest.approx(50.0, rel=1e-6) == found(*crossing).region.area
+
+
+def test_the_outside_stays_outside_of_an_open_door():
+    assert pytest.approx(50.0, rel=1e-6) == found([(1, 0), (10, 0), (10, 5), (0, 5), (0, 0)]).region.area
+
+
+def test_what_is_wide_open_is_outside():
+    with pytest.raises(NotEnclosedError, match="no closed room"):
+        found([(0, 0), (0, 5), (10, 5), (10, 0)])
+
+
+def test_a_blot_is_no_wall():
+    blot = [(5, 2), (5.05, 2), (5.05, 2.05), (5, 2.05), (5, 2)]
+    space = found(ROOM, blot)
+
+    assert 0 == shapely.get_num_interior_rings(space.region)
+
+
+def test_contours_enclose_by_turns():
+    outer, block, yard = (
+        [(0, 0), (10, 0), (10, 10), (0, 10)],
+        [(2, 2), (2, 8), (8, 8), (8, 2)],
+        [(4, 4), (6, 4), (6, 6), (4, 6)],
+    )
+    space = found(outer, block, yard, contours=True)
+
+    assert pytest.approx(100.0 - 36.0 + 4.0) == space.region.area
+
+
+def test_nothing_is_outside_of_contours():
+    space = found([(0, 0), (10, 0), (10, 10), (0, 10)], contours=True)
+
+    assert not space.outside.any()
+    assert np.array_equal([True], space.inside)
+
+
+@pytest.mark.parametrize("name", ["detail", "gap", "blob", "outer_opening"])
+def test_settings_refuse_what_cannot_be_meant(name):
+    with pytest.raises(ValueError, match=name):
+        FreeSpaceSettings(**{name: -1.0})
