@@ -10,9 +10,13 @@ from pilotage import Localizer, LocalizerSettings, demo, open_log, open_map
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Pose2
 from pilotage.localization import Status, TrackingSettings
+from pilotage.maps import AtlasSettings, RangeTableSettings
 from pilotage.perception import LaserScan, Odometry, Reading
 
-FEW = LocalizerSettings(tracking=TrackingSettings(first_count=4000, count=2000))  # enough to fall over
+FEW = LocalizerSettings(  # enough to fall over
+    atlas=AtlasSettings(range_table=RangeTableSettings(cells=80, directions=60)),
+    tracking=TrackingSettings(first_count=4000, count=2000),
+)
 HOUSE = '<rect x="{x}" y="{y}" width="60" height="40" fill="none" stroke="black"/>'
 
 
