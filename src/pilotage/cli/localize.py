@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def localize(
-    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing of the building: SVG or a picture.")],
+    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
     log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
     *,
     output: Annotated[
