@@ -34,7 +34,7 @@ def test_strokes_part_where_they_fork():
 
 def test_a_ragged_edge_makes_no_strokes():
     ink = inked([(10, 50), (90, 50)], width=7)
-    ink[45, 30] = ink[44, 30] = ink[54, 60] = True
+    ink[46, 30] = ink[45, 30] = ink[53, 60] = True
 
     assert 1 == len(trace_lines(ink))
 

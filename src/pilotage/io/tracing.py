@@ -29,8 +29,9 @@ def trace_lines(ink: Mask) -> list[Array]:
     pen_width = float(np.count_nonzero(ink)) / float(np.count_nonzero(middle))
     rows, columns = np.nonzero(middle)
     points = np.column_stack([columns + 0.5, rows + 0.5])
-    paths = follow(neighbor_graph(middle), SPUR * pen_width)
-    lines = [shapely.LineString(points[path]) for path in paths]
+    graph = neighbor_graph(middle)
+    remove_spurs(graph, SPUR * pen_width)
+    lines = [shapely.LineString(points[run]) for run in follow(graph)]
     straight = shapely.simplify(lines, max(STRAIGHTNESS * pen_width, 0.5))
     return [np.asarray(shapely.get_coordinates(line)) for line in straight]
 
@@ -52,8 +53,16 @@ def neighbor_graph(middle: Mask) -> rustworkx.PyGraph:
     return graph
 
 
-def follow(graph: rustworkx.PyGraph, spur: float) -> list[list[int]]:
-    """Cut a graph of pixels into runs between ends and forks, spurs left out; a ring is a run, too."""
+def remove_spurs(graph: rustworkx.PyGraph, shortest: float) -> None:
+    """Take away the pixels of side branches that are shorter than this."""
+    for run in follow(graph):
+        first, last = sorted((run[0], run[-1]), key=graph.degree)
+        if len(run) - 1 < shortest and graph.degree(first) == 1 and graph.degree(last) > 2:
+            graph.remove_nodes_from([node for node in run if node != last])
+
+
+def follow(graph: rustworkx.PyGraph) -> list[list[int]]:
+    """Cut a graph of pixels into runs between ends and forks; a ring is a run, too."""
     degree = {node: graph.degree(node) for node in graph.node_indices()}
     walked: set[int] = set()  # inner pixels of runs
     begun: set[tuple[int, int]] = set()  # first steps of runs, seen from either end
@@ -65,9 +74,7 @@ def follow(graph: rustworkx.PyGraph, spur: float) -> list[list[int]]:
             run = run_from(graph, degree, start, following)
             walked.update(run[1:-1])
             begun.update({(run[0], run[1]), (run[-1], run[-2])})
-            ends = sorted((degree[run[0]], degree[run[-1]]))
-            if not (len(run) - 1 < spur and ends[0] == 1 and ends[1] > 2):
-                runs.append(run)
+            runs.append(run)
     return runs
 
 

@@ -17,6 +17,9 @@ FRAME = 0.5
 """How far around the drawing the outside is looked at, as a share of its diagonal: beyond any pocket."""
 
 
+NOTHING = "a drawing must enclose free space, this one encloses none: no closed room"
+
+
 class NotEnclosedError(PilotageError, ValueError):
     """A drawing holds no free space: no stroke closes a room."""
 
@@ -61,11 +64,13 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
     without passing an opening narrower than `outer_opening`. Raises
     NotEnclosedError if nothing is enclosed.
     """
-    strokes = [stroke for stroke in significant(sketch, settings.blob) if len(stroke) > 1]
+    if sketch.diagonal == 0.0:
+        raise NotEnclosedError(NOTHING)
+    strokes = significant(sketch, settings.blob)
     simplified = simplify_all(strokes, Simplification(settings.detail * sketch.diagonal))
     found = within_contours(simplified) if sketch.contours else within_strokes(simplified, sketch, settings)
     if not found.inside.any():
-        raise NotEnclosedError("a drawing must enclose free space, this one encloses none: no closed room")
+        raise NotEnclosedError(NOTHING)
     return found
 
 
@@ -96,7 +101,8 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     """Take what closed contours enclose by the even-odd rule; all else is solid, nothing outside."""
     walls = segments_of(strokes)
     tessellation = tessellate(walls)
-    rings = shapely.make_valid([shapely.Polygon(stroke.vertices) for stroke in strokes])
+    loops = [shapely.Polygon(stroke.vertices) for stroke in strokes if len(stroke) > 2]
+    rings = shapely.make_valid(np.array(loops, dtype=object))
     points = shapely.point_on_surface(tessellation.pieces)
     held, _ = shapely.STRtree(rings).query(points, predicate="within")
     inside = np.bincount(held, minlength=len(points)) % 2 == 1
