@@ -4,9 +4,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from pilotage.kernels.any_start import any_start_dissimilarity
 from pilotage.kernels.segment_correspondence import combined_dissimilarity
 from pilotage.kernels.steps import ArcSteps, Steps
-from pilotage.kernels.tangent import arc_dissimilarity
+from pilotage.kernels.tangent import ROUNDING, arc_dissimilarity
 
 EQUATION_2, COMBINED = 0, 1  # the measures of two stretches
 
@@ -72,18 +73,23 @@ def group_costs(
 
 @njit(cache=True)
 def cheapest_sequence(
-    costs: NDArray[np.float64], sizes: NDArray[np.int64], i0: int, j0: int, best: NDArray[np.float64]
+    costs: NDArray[np.float64],
+    sizes: NDArray[np.int64],
+    i0: int,
+    j0: int,
+    bound: float,
+    best: NDArray[np.float64],
 ) -> float:
     """Sum up the cheapest sequence of groups that uses up all arcs, of c from i0 on and of d from j0 on.
 
-    `best` (k + 1, m + 1) is room to work in.
+    Sums that are not below `bound` are not followed. `best` (k + 1, m + 1) is room to work in.
     """
     k, m = costs.shape[1], costs.shape[2]
     best[:] = np.inf
     best[0, 0] = 0.0
     for i in range(k):
         for j in range(i % 2, m, 2):  # groups are odd on both sides: i + j stays even
-            if best[i, j] < np.inf:
+            if best[i, j] < bound:
                 for g in range(len(sizes)):
                     i1, j1 = i + sizes[g, 0], j + sizes[g, 1]
                     if i1 <= k and j1 <= m:
@@ -97,9 +103,10 @@ def open_dissimilarity(c: ArcSteps, d: ArcSteps, largest_group: int, measure: in
     """Compare two open lines: arcs against arcs in order, or all of one against all of the other."""
     sizes = group_sizes(largest_group)
     costs = group_costs(c, d, sizes, measure, largest_run)
-    in_order = cheapest_sequence(costs, sizes, 0, 0, np.empty((len(c.bends) + 1, len(d.bends) + 1)))
+    room = np.empty((len(c.bends) + 1, len(d.bends) + 1))
     n, m = len(c.steps.directions), len(d.steps.directions)
-    return min(in_order, stretch_dissimilarity(c.steps, 0, n, d.steps, 0, m, measure, largest_run))
+    whole = stretch_dissimilarity(c.steps, 0, n, d.steps, 0, m, measure, largest_run)
+    return min(whole, cheapest_sequence(costs, sizes, 0, 0, whole, room))
 
 
 @njit(cache=True)
@@ -114,16 +121,32 @@ def closed_dissimilarity(
     sizes = group_sizes(largest_group)
     costs = group_costs(c, d, sizes, measure, largest_run)
     k, m = len(c.bends), len(d.bends)
-    least = np.inf
-    best = np.empty((k + 1, m + 1))
+    room = np.empty((k + 1, m + 1))
+    least = whole_dissimilarity(c, d, measure, largest_run)
     for i0 in range(min(largest_group, k)):
         for j0 in range(m):
             if c.bends[i0] * d.bends[j0] >= 0:
-                least = min(least, cheapest_sequence(costs, sizes, i0, j0, best))
-    whole = measure if k == 1 and m == 1 else EQUATION_2  # dear, and of use only where an arc is all there is
-    n_c, n_d = len(c.steps.directions) // 2, len(d.steps.directions) // 2
-    for p in range(n_c):
-        for q in range(n_d):
-            cost = stretch_dissimilarity(c.steps, p, p + n_c, d.steps, q, q + n_d, whole, largest_run)
-            least = min(least, cost)
+                least = min(least, cheapest_sequence(costs, sizes, i0, j0, least, room))
+    return least
+
+
+@njit(cache=True)
+def whole_dissimilarity(c: ArcSteps, d: ArcSteps, measure: int, largest_run: int) -> float:
+    """Compare all of a closed contour with all of another, each started at any vertex.
+
+    By eq. (2), unless both are single arcs: only then is a correspondence of their segments worth its price.
+    """
+    n, m = len(c.steps.directions) // 2, len(d.steps.directions) // 2
+    single = len(c.bends) == 1 and len(d.bends) == 1
+    c_turn, d_turn = (
+        c.steps.directions[n] - c.steps.directions[0],
+        d.steps.directions[m] - d.steps.directions[0],
+    )
+    if abs(c_turn - d_turn) < ROUNDING and not (single and measure == COMBINED):
+        return any_start_dissimilarity(c.steps, d.steps)
+    least = np.inf
+    for p in range(n):
+        for q in range(m):
+            by = measure if single else EQUATION_2
+            least = min(least, stretch_dissimilarity(c.steps, p, p + n, d.steps, q, q + m, by, largest_run))
     return least

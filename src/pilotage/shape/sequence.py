@@ -12,6 +12,8 @@ from pilotage.kernels.steps import ArcSteps, Steps
 from pilotage.shape.arcs import Bend, find_arcs
 from pilotage.shape.tangent import TangentFunction
 
+REPEAT = 1e-9  # share of the length; a shorter segment is rounding
+
 
 @dataclass(frozen=True, eq=False)
 class ArcSequence:
@@ -21,22 +23,20 @@ class ArcSequence:
     """
 
     tangent: TangentFunction
-    arc_starts: NDArray[
-        np.int64
-    ]  # (k + 1,) the piece of the tangent function where each arc starts, and the end
+    arc_starts: NDArray[np.int64]  # (k + 1,) the piece with which each arc starts, and the end
     bends: tuple[Bend, ...]  # (k,)
     closed: bool
 
     @classmethod
     def of(cls, polyline: Polyline) -> Self:
         """Cut a polyline into arcs; a closed one with inflections starts at the first of them."""
-        arcs = find_arcs(polyline)
-        stretches = [polyline.cut(arc.span) for arc in arcs]
-        vertices = np.vstack([stretches[0].vertices, *(stretch.vertices[1:] for stretch in stretches[1:])])
-        pieces = [np.count_nonzero(stretch.segment_lengths) for stretch in stretches]
+        line = _without_repeats(polyline)
+        arcs = find_arcs(line)
+        stretches = [line.cut(arc.span).vertices for arc in arcs]
+        vertices = np.vstack([stretches[0], *(stretch[1:] for stretch in stretches[1:])])
         return cls(
             TangentFunction.of(Polyline(vertices)),
-            np.cumsum([0, *pieces]),
+            np.cumsum([0, *(len(stretch) - 1 for stretch in stretches)]),
             tuple(arc.bend for arc in arcs),
             polyline.closed,
         )
@@ -52,3 +52,10 @@ class ArcSequence:
             starts = np.concatenate([starts, starts[-1] + starts[1:]])
         bends = np.array([bend.value for bend in self.bends])
         return ArcSteps(Steps(length * stops, along), starts, bends)
+
+
+def _without_repeats(polyline: Polyline) -> Polyline:
+    """Leave out vertices that repeat the one before them, or nearly so."""
+    advances = polyline.segment_lengths > REPEAT * polyline.length
+    is_new = np.roll(advances, 1) if polyline.closed else np.concatenate([[True], advances])
+    return polyline.subset(np.flatnonzero(is_new)) if np.count_nonzero(is_new) > 1 else polyline

@@ -57,13 +57,14 @@ class TangentFunction:
         >>> TangentFunction.of(Polyline.through([(0, 0), (3, 0), (3, 1)])).stops.tolist()
         [0.0, 0.75, 1.0]
         """
-        lengths = polyline.segment_lengths
-        if not lengths.sum() > 0.0:
+        if not polyline.length > 0.0:
             raise ValueError(f"polyline must have a length, got {polyline.vertices[0]} only")
         along = directions(polyline)
         unwrapped = along[0] + np.concatenate([[0.0], np.cumsum(turns(polyline)[1 : len(along)])])
-        stops = np.concatenate([[0.0], np.cumsum(lengths[lengths > 0.0])])
-        return cls(stops / stops[-1], unwrapped[lengths > 0.0], float(stops[-1]))
+        stops = np.concatenate([[0.0], np.cumsum(polyline.segment_lengths)])
+        stops /= stops[-1]
+        advances = np.diff(stops) > 0.0
+        return cls(np.concatenate([[0.0], stops[1:][advances]]), unwrapped[advances], polyline.length)
 
     def steps(self, length: float) -> Steps:
         """Lay out for the kernels, as if the contour had this length."""
