@@ -93,9 +93,7 @@ class _Side(NamedTuple):
     """One of the two polylines, laid out for the kernel, repeated vertices left out."""
 
     chain: Chain
-    vertices: NDArray[
-        np.intp
-    ]  # which vertex of the polyline each of the chain is, counting on around closed ones
+    vertices: NDArray[np.intp]  # which of the polyline each of the chain is; counts on around closed ones
     size: int  # vertices of the polyline
 
     @classmethod
@@ -152,15 +150,19 @@ def _match(seen: _Side, known: _Side, poses: Array, settings: Matching) -> tuple
 
     prices = Prices(settings.displacement_weight, settings.reward, settings.largest_run)
     found = match_at_poses(seen.chain, known.chain, poses, prices)
-    matches: dict[tuple[Span, Span], PartialMatch] = {}
+    matches: list[PartialMatch] = []
+    collected: set[bytes] = set()
     for h in np.argsort(found.costs, kind="stable"):
         if found.costs[h] == 0.0 or len(matches) == settings.count:
             break
-        paths = found.paths[h, : found.sizes[h]].T
-        match = _cut_and_fit((seen, known), paths, found.cuts[h], float(found.costs[h]))
-        if match.length >= settings.min_length:
-            matches.setdefault((match.seen, match.known), match)
-    return tuple(matches.values())
+        paths, cuts = found.paths[h, : found.sizes[h]].T, found.cuts[h]
+        name = paths.tobytes() + cuts.tobytes()
+        if name not in collected:
+            collected.add(name)
+            match = _cut_and_fit((seen, known), paths, cuts, float(found.costs[h]))
+            if match.length >= settings.min_length:
+                matches.append(match)
+    return tuple(matches)
 
 
 def _cut_and_fit(
