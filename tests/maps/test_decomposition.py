@@ -155,7 +155,7 @@ def test_turning_and_scaling_the_drawing_changes_nothing_but_coordinates(b_from_
 
 def assert_sound(graph: CellGraph) -> None:
     polygons = np.array([cell.polygon for cell in graph.cells])
-    tolerance = 1e-5 * graph.diagonal
+    tolerance = 1e-5 * graph.diameter
     assert shapely.is_valid(polygons).all()
     assert shapely.union_all(polygons).area == pytest.approx(shapely.area(polygons).sum(), rel=1e-6)
     for gateway in graph.gateways:
@@ -214,3 +214,17 @@ def test_drawn_buildings_fall_into_sound_cells(name):
 
     assert_sound(graph)
     assert 10 <= len(graph.cells) <= 30
+
+
+@pytest.mark.skipif(not SHARED.exists(), reason="the shared drawings are not here")
+@pytest.mark.parametrize("name", ["aces/quick", "fhw/draftsman", "freiburg-079/quick"])
+def test_drawn_buildings_fall_into_the_same_cells_when_the_sheet_is_turned(name):
+    sketch = open_map(SHARED / "sketches" / f"{name}.svg")
+    turned_from_drawn = Similarity2(0.5, Pose2(5.0, 7.0, 0.7))
+    turned = SchematicMap(tuple(stroke.moved(turned_from_drawn) for stroke in sketch.strokes))
+    areas, turned_areas = (
+        [cell.polygon.area for cell in decompose(drawn, DecompositionSettings()).cells]
+        for drawn in (sketch, turned)
+    )
+
+    assert [area / 4.0 for area in areas] == pytest.approx(turned_areas, rel=1e-2)

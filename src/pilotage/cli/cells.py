@@ -56,7 +56,7 @@ def cells(
     and small gaps at corners are mended.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
-    written in the drawing. The cost of a route is its length as a share of the drawing's diagonal, and a
+    written in the drawing. The cost of a route is its length as a share of the drawing's diameter, and a
     little more for each gateway.
 
     **Examples:**
@@ -156,4 +156,4 @@ def describe_route(graph: "CellGraph", route: "Route") -> str:
     steps += [
         f"through {gateway} to {cell}" for gateway, cell in zip(route.gateway_ids, words[1:], strict=True)
     ]
-    return ", ".join(steps) + f"\ncost {route.cost:.3f} of the drawing's diagonal"
+    return ", ".join(steps) + f"\ncost {route.cost:.3f} of the drawing's diameter"

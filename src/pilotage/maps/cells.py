@@ -84,7 +84,7 @@ class Neighbor:
     direction: (
         float  # from the center of the cell to the middle of the gateway [rad, counter-clockwise on the page]
     )
-    distance: float  # the same, as a share of the drawing's diagonal
+    distance: float  # the same, as a share of the drawing's diameter
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +93,7 @@ class CellGraph:
 
     cells: tuple[Cell, ...]
     gateways: tuple[Gateway, ...]
-    diagonal: float  # of the drawing [drawing units]
+    diameter: float  # of the drawing: between its farthest points [drawing units]
 
     def __post_init__(self) -> None:
         """Refuse a graph without cells and gateways to nowhere."""
@@ -156,7 +156,7 @@ class CellGraph:
                     second if cell_id == first else first,
                     gateway.gateway_id,
                     direction=math.atan2(y, x),
-                    distance=math.hypot(x, y) / self.diagonal,
+                    distance=math.hypot(x, y) / self.diameter,
                 )
             )
         return tuple(found)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.enclosure import EnclosureSettings, drop_outdoors
+from pilotage.maps.extent import diameter_of
 from pilotage.maps.free_space import FreeSpaceSettings, free_space
 from pilotage.maps.merging import MergeSettings, drop_small, merge_pieces
 from pilotage.maps.schematic import Label, SchematicMap
@@ -40,7 +41,8 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
     numbers, polygons = outlines(space.tessellation, regions)
     cells = name_cells(polygons, sketch.labels, settings)
     id_of = dict(zip(numbers, (cell.cell_id for cell in cells), strict=True))
-    return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), sketch.diagonal)
+    points = np.vstack([stroke.vertices for stroke in sketch.strokes])
+    return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), diameter_of(points))
 
 
 def outlines(

@@ -1,5 +1,6 @@
 """Find free space in a drawing: what its walls enclose, small gaps mended, the outside left out."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,12 +10,13 @@ from numpy.typing import NDArray
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline
+from pilotage.maps.extent import diameter_of
 from pilotage.maps.schematic import SchematicMap
 from pilotage.maps.tessellation import Tessellation, tessellate
 from pilotage.shape.simplify import Simplification, simplify_all
 
 FRAME = 0.5
-"""How far around the drawing the outside is looked at, as a share of its diagonal: beyond any pocket."""
+"""How far around the drawing the outside is looked at, as a share of its diameter: beyond any pocket."""
 
 
 NOTHING = "a drawing must enclose free space, this one encloses none: no closed room"
@@ -26,12 +28,12 @@ class NotEnclosedError(PilotageError, ValueError):
 
 @dataclass(frozen=True, slots=True)
 class FreeSpaceSettings:
-    """What counts as a detail, a gap, an opening of the building: all as shares of the drawing's diagonal."""
+    """What counts as a detail, a gap, an opening of the building: all as shares of the drawing's diameter."""
 
     detail: float = 0.0015  # least relevance of a corner [rad]: a step of 10 cm in a wall of a 50 m building
-    gap: float = 0.009  # openings narrower than this were meant to be closed: 45 cm in a 50 m building
+    gap: float = 0.01  # openings narrower than this were meant to be closed: 50 cm in a 50 m building
     blob: float = 0.01  # free-standing things smaller than this are dropped: chairs, letters, blots
-    outer_opening: float = 0.15  # the outside ends at openings narrower than this: open ends of corridors
+    outer_opening: float = 0.2  # the outside ends at openings narrower than this: open ends of corridors
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
@@ -49,7 +51,6 @@ class FreeSpace:
     tessellation: Tessellation  # mended: no chord is narrower than a gap
     inside: NDArray[np.bool_]  # (p,)
     outside: NDArray[np.bool_]  # (p,) what is neither is solid
-    diagonal: float  # of the drawing [drawing units]
 
     @property
     def region(self) -> shapely.Geometry:
@@ -61,35 +62,31 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
     """Find the free space of a drawing.
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
-    without passing an opening narrower than `outer_opening`. Raises
-    NotEnclosedError if nothing is enclosed.
+    without passing an opening narrower than `outer_opening`. Raises NotEnclosedError if nothing is enclosed.
     """
-    if sketch.diagonal == 0.0:
+    diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
+    if diameter == 0.0:
         raise NotEnclosedError(NOTHING)
-    strokes = significant(sketch, settings.blob)
-    simplified = simplify_all(strokes, Simplification(settings.detail * sketch.diagonal))
-    found = within_contours(simplified) if sketch.contours else within_strokes(simplified, sketch, settings)
+    strokes = significant(sketch.strokes, settings.blob * diameter)
+    walls = simplify_all(strokes, Simplification(settings.detail * diameter))
+    found = within_contours(walls) if sketch.contours else within_strokes(walls, diameter, settings)
     if not found.inside.any():
         raise NotEnclosedError(NOTHING)
     return found
 
 
-def significant(sketch: SchematicMap, blob: float) -> list[Polyline]:
+def significant(strokes: Sequence[Polyline], blob: float) -> Sequence[Polyline]:
     """Leave out groups of touching strokes that are smaller than a blob; keep all if all are."""
-    drawn = np.array([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    drawn = np.array([shapely.LineString(stroke.ring) for stroke in strokes])
     touching = rustworkx.PyGraph()
     touching.add_nodes_from(range(len(drawn)))
     pairs = shapely.STRtree(drawn).query(drawn, predicate="intersects").T
     touching.add_edges_from_no_data([(int(a), int(b)) for a, b in pairs if a < b])
-    bounds = shapely.bounds(drawn)
-    least = blob * sketch.diagonal
     kept: set[int] = set()
     for group in rustworkx.connected_components(touching):
-        members = bounds[sorted(group)]
-        width, height = members[:, 2:].max(axis=0) - members[:, :2].min(axis=0)
-        if np.hypot(width, height) >= least:
+        if diameter_of(np.vstack([strokes[index].vertices for index in sorted(group)])) >= blob:
             kept |= group
-    return [sketch.strokes[index] for index in sorted(kept)] or list(sketch.strokes)
+    return [strokes[index] for index in sorted(kept)] or strokes
 
 
 def segments_of(strokes: tuple[Polyline, ...]) -> Array:
@@ -106,34 +103,24 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     points = shapely.point_on_surface(tessellation.pieces)
     held, _ = shapely.STRtree(rings).query(points, predicate="within")
     inside = np.bincount(held, minlength=len(points)) % 2 == 1
-    diagonal = float(np.hypot(*np.ptp(walls.reshape(-1, 2), axis=0)))
-    return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool), diagonal)
+    return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool))
 
 
-def within_strokes(
-    strokes: tuple[Polyline, ...], sketch: SchematicMap, settings: FreeSpaceSettings
-) -> FreeSpace:
+def within_strokes(strokes: tuple[Polyline, ...], diameter: float, settings: FreeSpaceSettings) -> FreeSpace:
     """Take what strokes enclose, openings to the outside closed and gaps mended."""
-    diagonal = sketch.diagonal
-    framed = tessellate(np.vstack([segments_of(strokes), frame_around(sketch)]))
-    mended = framed.with_chords(framed.widths >= settings.gap * diagonal)
-    outside = find_outside(mended, settings.outer_opening * diagonal)
-    slits = mended.reaches < settings.gap * diagonal
-    return FreeSpace(mended, ~outside & ~slits, outside, diagonal)
+    walls = segments_of(strokes)
+    framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
+    mended = framed.with_chords(framed.widths >= settings.gap * diameter)
+    outside = find_outside(mended, settings.outer_opening * diameter)
+    slits = mended.reaches < settings.gap * diameter
+    return FreeSpace(mended, ~outside & ~slits, outside)
 
 
-def frame_around(sketch: SchematicMap) -> Array:
-    """Draw a box around the drawing, (4, 4)."""
-    left, bottom, right, top = sketch.bounds
-    margin = FRAME * sketch.diagonal
-    corners = np.array(
-        [
-            [left - margin, bottom - margin],
-            [right + margin, bottom - margin],
-            [right + margin, top + margin],
-            [left - margin, top + margin],
-        ]
-    )
+def frame_around(walls: Array, margin: float) -> Array:
+    """Draw a box around walls (n, 4), (4, 4)."""
+    points = walls.reshape(-1, 2)
+    (left, bottom), (right, top) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
     return np.hstack([corners, np.roll(corners, -1, axis=0)])
 
 

@@ -6,7 +6,7 @@ from pilotage.maps.cells import CellGraph
 from pilotage.maps.route import Point, RouteError
 
 SLACK = 0.005
-"""How far beside a cell a point may lie, as a share of the diagonal: a pencil's width off."""
+"""How far beside a cell a point may lie, as a share of the diameter: a pencil's width off."""
 
 
 def find_labeled(graph: CellGraph, words: str) -> Point:
@@ -31,7 +31,7 @@ def check_place(graph: CellGraph, point: Point, what: str) -> None:
     Raises RouteError that says whether it lies outside the drawing or where nothing is free.
     """
     cell_id = graph.cell_at(point)
-    if graph.distance_to(cell_id, point) <= SLACK * graph.diagonal:
+    if graph.distance_to(cell_id, point) <= SLACK * graph.diameter:
         return
     bounds = np.array([cell.polygon.bounds for cell in graph.cells])
     low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)

@@ -24,11 +24,11 @@ class RouteError(PilotageError):
 
 @dataclass(frozen=True, slots=True)
 class RouteSettings:
-    """What a way costs beside its length; all costs are shares of the drawing's diagonal."""
+    """What a way costs beside its length; all costs are shares of the drawing's diameter."""
 
     gateway: float = 0.01  # for passing one: it must be found; as much as walking 50 cm in a 50 m building
     narrowness: float = (
-        0.0002  # for passing one as wide as the diagonal, and more for narrow ones: 1 % at 1 in 50
+        0.0002  # for passing one as wide as the drawing, and more for narrow ones: 1 % at 1 in 50
     )
     small: float = (
         1.2  # how many times dearer it is to walk in a small cell, where there is less room to turn
@@ -47,7 +47,7 @@ class RouteSettings:
         return {CellSize.SMALL: self.small, CellSize.MEDIUM: self.medium, CellSize.LARGE: self.large}[size]
 
     def passing(self, relative_width: float) -> float:
-        """Return what it costs to pass a gateway of this width, a share of the diagonal."""
+        """Return what it costs to pass a gateway of this width, a share of the diameter."""
         return self.gateway + self.narrowness / relative_width
 
 
@@ -57,7 +57,7 @@ class Route:
 
     cell_ids: tuple[str, ...]
     gateway_ids: tuple[str, ...]
-    cost: float  # length as a share of the diagonal, dearer in small cells and through narrow gateways
+    cost: float  # length as a share of the diameter, dearer in small cells and through narrow gateways
     way: Array  # (k >= 2, 2) from the start through the middles of the gateways to the goal [drawing units]
 
     def __post_init__(self) -> None:
@@ -110,7 +110,7 @@ class Network:
         self.points = [np.array(start, dtype=np.float64), np.array(goal, dtype=np.float64)]
         self.legs = rustworkx.PyGraph()
         self.legs.add_nodes_from([START, GOAL])
-        self.settings, self.diagonal = settings, graph.diagonal
+        self.settings, self.diameter = settings, graph.diameter
         stops_in: dict[str, list[int]] = {cell.cell_id: [] for cell in graph.cells}
         stops_in[graph.cell_at(start)].append(START)
         stops_in[graph.cell_at(goal)].append(GOAL)
@@ -130,7 +130,7 @@ class Network:
     def add_gateway(self, gateway: Gateway) -> tuple[int, int]:
         """Add both faces of a gateway, and the step from one to the other."""
         faces = self.add_stop(gateway.middle), self.add_stop(gateway.middle)
-        cost = self.settings.passing(gateway.width / self.diagonal)
+        cost = self.settings.passing(gateway.width / self.diameter)
         self.legs.add_edge(*faces, Leg(cost, gateway.gateway_id))
         return faces
 
@@ -138,7 +138,7 @@ class Network:
         """Join stops of a cell, and the corners that jut into it, where one sees the other."""
         stops = stops + [self.add_stop(corner) for corner in jutting_corners(cell)]
         points = np.array([self.points[stop] for stop in stops])
-        price = self.settings.walking(cell.size) / self.diagonal
+        price = self.settings.walking(cell.size) / self.diameter
         for first, second in find_sights(cell, points).tolist():
             length = float(np.hypot(*(points[second] - points[first])))
             self.legs.add_edge(stops[first], stops[second], Leg(price * length))
