@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pilotage.geometry import Array, Pose2, frozen_array, wrap_angle
-from pilotage.localization.overlap import find_correspondences
+from pilotage.localization.overlap import OverlapSettings, find_correspondences
 from pilotage.perception import Odometry, OdometryNoise, PerceptionMap, Registration
 from pilotage.perception.perception_map import segments_of
 from pilotage.shape.partial import PartialShape
@@ -39,7 +39,7 @@ class SearchSettings:
     reach: float = 3.0  # deviations of odometry within which poses are tried
     max_place: float = 1.6  # [m] never search farther, unless lost
     max_turn: float = math.pi / 2  # [rad] never search farther
-    lost_support: float = 0.25  # with less, odometry is taken to be grossly wrong and the search widened
+    lost_support: float = 0.3  # with less, odometry is taken to be grossly wrong and the search widened
     lost_place: float = 0.2  # [m] then search so far
     lost_place_per_meter: float = (
         2.2  # [m/m] and so much of the motion: a robot may have gone back instead of on
@@ -53,6 +53,7 @@ class RegistrationSettings:
     """How a scan is registered."""
 
     search: SearchSettings = field(default_factory=SearchSettings)
+    overlap: OverlapSettings = field(default_factory=OverlapSettings)
     sample_step: float = 0.1  # [m] between the points that stand for a shape
     widths: tuple[float, ...] = (0.5, 0.35, 0.25, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.05, 0.05, 0.05)  # [m]
     deviation: float = 0.07  # [m] of one sampled point; neighbors err alike, so it is more than a range's
@@ -123,7 +124,7 @@ def register(
         return _unregistered(shapes, perception_map, odometry, guess)
     fit = _best_fit(samples, perception_map, guess, settings)
     odom_from_base = Pose2(*fit.pose.tolist())
-    correspondences = find_correspondences(shapes, perception_map, odom_from_base, settings.sample_step)
+    correspondences = find_correspondences(shapes, perception_map, odom_from_base, settings.overlap)
     matched = {correspondence.seen for correspondence in correspondences}
     information = fit.hessian / settings.deviation**2 + guess.information
     support = fit.support / float(samples.weights.sum())
@@ -176,11 +177,6 @@ def _best_fit(
     If none is well supported, search as far as the robot can have gone.
     """
     total = float(samples.weights.sum())
-
-    def quality(fit: _Fit) -> float:
-        surprise = math.log1p(guess.distance(fit.pose) / settings.tail)
-        return fit.support / total - settings.penalty * surprise
-
     search = settings.search
     window = (
         min(search.reach * guess.place, search.max_place),
@@ -191,11 +187,15 @@ def _best_fit(
     if max(fit.support for fit in fits) < search.lost_support * total:
         distance = math.hypot(guess.motion.x, guess.motion.y)
         place, turn = OdometryNoise().deviations(guess.motion)
-        unsure = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
-        reach = search.lost_place + search.lost_place_per_meter * distance
-        window = (min(reach, search.max_lost_place), search.lost_turn)
-        starts = _search(samples, perception_map, unsure, window, settings)
+        guess = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
+        window = (search.lost_place + search.lost_place_per_meter * distance, search.lost_turn)
+        starts = _search(samples, perception_map, guess, window, settings)
         fits += _refine(samples, perception_map, guess, starts, settings)
+
+    def quality(fit: _Fit) -> float:
+        surprise = math.log1p(guess.distance(fit.pose) / settings.tail)
+        return fit.support / total - settings.penalty * surprise
+
     return max(fits, key=quality)
 
 

@@ -31,7 +31,7 @@ class Registration:
     last_from_base: Pose2  # the motion since the last reading, as registered
     shapes: tuple[PartialShape, ...]  # as perceived, in the base frame
     correspondences: tuple[Correspondence, ...]
-    unmatched: tuple[int, ...]  # perceived shapes without a correspondence: what just came into sight
+    unmatched: tuple[int, ...]  # perceived shapes that known ones do not cover: what just came into sight
     support: float  # [0..1] share of the length of all shapes that lies on known ones
     residual: float  # [m] root mean square distance of what does
     covariance: Array  # (3, 3) of x, y, theta of `odom_from_base` [m, m, rad]

@@ -29,23 +29,17 @@ class PerceptionMapSettings:
     window: float = 10.0  # [m] of the robot's way; over 10 m registration drifts by less than 10 cm
     key_distance: float = 0.3  # [m] a scan is entered once the robot has moved this far
     key_turn: float = math.radians(10.0)  # [rad] or turned so much since the last one that was
-    cover_distance: float = 0.12  # [m] a shape is covered where a newer one runs its way within this
-    cover_share: float = 0.7  # [0..1] of its length: then the newer one replaces it
     reach: float = 0.6  # [m] how far from a shape its nearest segment is known
     cell: float = 0.1  # [m] how exactly
-    sample_step: float = 0.1  # [m] between the points that tell whether a shape is covered
-    min_cosine: float = 0.7  # lines less than 45 degrees apart run the same way
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("window", "cover_distance", "reach", "cell", "sample_step"):
+        for name in ("window", "reach", "cell"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0 m, got {getattr(self, name)}")
         for name in ("key_distance", "key_turn"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
-        if not 0.0 <= self.cover_share <= 1.0:
-            raise ValueError(f"cover_share must be in [0, 1], got {self.cover_share}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,10 +77,11 @@ class PerceptionMap:
         return segment_owners(self.shapes)
 
     def merged(self, registration: Registration) -> "PerceptionMap":
-        """Enter what a registered scan shows.
+        """Enter what a registered scan shows that was not known (section 3.3, step 4).
 
-        Newer shapes replace those they cover; the rest is entered as it is, and what the robot saw too long
-        ago is forgotten. A scan taken where the last one was entered moves the robot only.
+        Known shapes stay as they were first seen: to replace them by newer ones, as the paper does, lets the
+        map drift faster (decision 0006). What was entered too long ago is forgotten, and entered anew if it
+        is still in sight. A scan taken where the last one was entered moves the robot only.
         """
         motion = registration.last_from_base
         moved = replace(
@@ -112,37 +107,22 @@ class PerceptionMap:
         )
 
     def _entered(self, registration: Registration) -> "PerceptionMap":
-        """Replace, enter and forget."""
-        seen = tuple(shape.moved(registration.odom_from_base) for shape in registration.shapes)
+        """Enter and forget."""
+        new = tuple(
+            registration.shapes[index].moved(registration.odom_from_base) for index in registration.unmatched
+        )
         oldest = self.traveled - self.settings.window
-        kept = [
-            index
-            for index, is_covered in enumerate(self._covered_by(seen))
-            if not is_covered and self.entered_at[index] >= oldest
-        ]
+        kept = [index for index, entered_at in enumerate(self.entered_at) if entered_at >= oldest]
         stamp = registration.odometry.stamp
+        seen_again = {correspondence.known for correspondence in registration.correspondences}
+        last_seen = (stamp if index in seen_again else self.last_seen[index] for index in kept)
         return replace(
             self,
-            shapes=(*(self.shapes[index] for index in kept), *seen),
-            last_seen=(*(self.last_seen[index] for index in kept), *(stamp for _ in seen)),
-            entered_at=(*(self.entered_at[index] for index in kept), *(self.traveled for _ in seen)),
+            shapes=(*(self.shapes[index] for index in kept), *new),
+            last_seen=(*last_seen, *(stamp for _ in new)),
+            entered_at=(*(self.entered_at[index] for index in kept), *(self.traveled for _ in new)),
             odom_from_key=registration.odom_from_base,
         )
-
-    def _covered_by(self, seen: tuple[PartialShape, ...]) -> list[bool]:
-        """Tell of each known shape whether newer shapes cover enough of it to replace it."""
-        if not seen or not self.shapes:
-            return [False] * len(self.shapes)
-        from pilotage.kernels.segment_field import NONE, build_segment_field, find_nearest
-        from pilotage.kernels.segment_sampling import sample_segments
-
-        points, directions, weights, owners = sample_segments(self.segments, self.settings.sample_step)
-        newer = build_segment_field(segments_of(seen), self.settings.cell / 2, self.settings.cover_distance)
-        covered = weights * (find_nearest(points, directions, newer, self.settings.min_cosine) != NONE)
-        shape = self.shape_of_segment[owners]
-        whole = np.bincount(shape, weights, len(self.shapes))
-        share = np.bincount(shape, covered, len(self.shapes)) / np.maximum(whole, np.finfo(float).tiny)
-        return [bool(is_covered) for is_covered in share >= self.settings.cover_share]
 
 
 _DERIVED = ("segments", "segment_field", "shape_of_segment")  # what depends on the shapes alone
