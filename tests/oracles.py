@@ -160,3 +160,21 @@ def cheapest_match(seen, known, pose, prices):  # noqa: C901 (one closure over o
                     first = cut(i, j, apart(i + 1, j + 1))
                     best = min(best, *(first + rest for rest in costs_from(i + 1, j + 1)))
     return best
+
+
+def cheapest_sequence(costs, sizes, i0, j0):
+    """Try all sequences of groups that use up the arcs of both sides, from i0 and j0 on."""
+    _, k, m = costs.shape
+
+    @cache
+    def rest(i, j):
+        if (i, j) == (k, m):
+            return 0.0
+        following = [
+            costs[g, (i0 + i) % k, (j0 + j) % m] + rest(i + size[0], j + size[1])
+            for g, size in enumerate(sizes.tolist())
+            if i + size[0] <= k and j + size[1] <= m
+        ]
+        return min(following, default=math.inf)
+
+    return rest(0, 0)
