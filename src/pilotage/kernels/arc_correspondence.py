@@ -138,15 +138,13 @@ def whole_dissimilarity(c: ArcSteps, d: ArcSteps, measure: int, largest_run: int
     """
     n, m = len(c.steps.directions) // 2, len(d.steps.directions) // 2
     single = len(c.bends) == 1 and len(d.bends) == 1
-    c_turn, d_turn = (
-        c.steps.directions[n] - c.steps.directions[0],
-        d.steps.directions[m] - d.steps.directions[0],
-    )
+    c_turn = c.steps.directions[n] - c.steps.directions[0]
+    d_turn = d.steps.directions[m] - d.steps.directions[0]
     if abs(c_turn - d_turn) < ROUNDING and not (single and measure == COMBINED):
         return any_start_dissimilarity(c.steps, d.steps)
+    by = measure if single else EQUATION_2
     least = np.inf
     for p in range(n):
         for q in range(m):
-            by = measure if single else EQUATION_2
             least = min(least, stretch_dissimilarity(c.steps, p, p + n, d.steps, q, q + m, by, largest_run))
     return least

@@ -5,7 +5,7 @@ from numba import njit
 
 from pilotage.kernels.steps import Steps
 
-ROUNDING = 1e-9  # of a share of length
+ROUNDING = 1e-9  # shares of length and sums of turns that differ by less are equal
 
 
 @njit(cache=True)
