@@ -51,10 +51,11 @@ class Regions:
         least = settings.least_area * total
         if smaller < least:
             return smaller / least
-        opening = sum(self.widths[chord] for chord in self.chords_to[first][second])
+        chords = self.chords_to[first][second]
+        opening = sum(self.widths[chord] for chord in chords)
         narrow, wide = sorted((self.reaches[first], self.reaches[second]))
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
-        jambs = self.jambs[max(self.chords_to[first][second], key=lambda chord: self.widths[chord])]
+        jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
         return max(
             narrowing / settings.narrowing,
             min(mouth / settings.mouth, depth / settings.mouth_depth),

@@ -1,0 +1,82 @@
+import numpy as np
+import pytest
+
+from pilotage.geometry import Polyline
+from pilotage.maps import DecompositionSettings, MergeSettings, SchematicMap, decompose
+from pilotage.maps.jambs import find_jambs
+from pilotage.maps.tessellation import tessellate
+
+
+def count_cells(*strokes, settings=None):
+    sketch = SchematicMap(tuple(Polyline.through(stroke) for stroke in strokes))
+    merging = MergeSettings() if settings is None else settings
+    return len(decompose(sketch, DecompositionSettings(merging=merging)).cells)
+
+
+def test_a_row_of_columns_is_one_wide_opening():
+    room = [(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)]
+    columns = [[(10, y), (10, y + 0.5)] for y in (1.5, 3.5, 5.5, 7.5)]
+
+    assert 1 == count_cells(room, *columns)
+
+
+def test_a_hollow_of_a_wall_belongs_to_its_room():
+    window = [(0, 0), (20, 0), (20, 10), (12, 10), (12, 10.4), (9, 10.4), (9, 10), (0, 10), (0, 0)]
+
+    assert 1 == count_cells(window)
+
+
+def test_an_alcove_as_deep_as_wide_is_a_cell_of_its_own():
+    alcove = [(0, 0), (20, 0), (20, 10), (12, 10), (12, 13), (9, 13), (9, 10), (0, 10), (0, 0)]
+
+    assert 2 == count_cells(alcove)
+
+
+def test_a_niche_wider_than_deep_is_cut_at_its_mouth():
+    niche = [(0, 0), (20, 0), (20, 10), (13, 10), (13, 12.2), (7, 12.2), (7, 10), (0, 10), (0, 0)]
+
+    assert 2 == count_cells(niche)
+
+
+def test_a_gap_between_jambs_is_a_door_although_it_is_wide():
+    rooms = [(0, 0), (20, 0), (20, 6), (0, 6), (0, 0)]
+
+    assert 2 == count_cells(rooms, [(10, 0), (10, 1)], [(10, 5), (10, 6)])
+    assert 1 == count_cells(rooms, [(10, 0), (10, 0.3)], [(10, 5.7), (10, 6)])
+
+
+def test_cells_below_the_least_area_are_merged():
+    suite = [(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)], [(0, 2), (1.2, 2), (1.2, 1.2)]
+
+    assert 2 == count_cells(*suite)
+    assert 1 == count_cells(*suite, settings=MergeSettings(least_area=0.05))
+
+
+def test_jambs_tell_a_door_from_the_cut_of_a_corridor():
+    walls = np.array(
+        [(0, 0, 20, 0), (20, 0, 20, 6), (20, 6, 0, 6), (0, 6, 0, 0), (10, 0, 10, 2), (10, 4, 10, 6)],
+        dtype=np.float64,
+    )
+    door, cut = np.array([[[10, 2], [10, 4]], [[5, 0], [5, 6]]], dtype=np.float64)
+
+    assert [3.0, 1.0] == pytest.approx(find_jambs(np.stack([door, cut]), walls), abs=1e-6)
+
+
+def test_pieces_cover_what_walls_enclose_and_openings_lie_between_them():
+    walls = np.array(
+        [(0, 0, 20, 0), (20, 0, 20, 6), (20, 6, 0, 6), (0, 6, 0, 0), (10, 0, 10, 2), (10, 4, 10, 6)],
+        dtype=np.float64,
+    )
+    tessellation = tessellate(walls)
+
+    assert 120.0 == pytest.approx(tessellation.areas.sum())
+    assert [2.0] == pytest.approx(tessellation.widths)
+    left, right = (tessellation.pieces[side].centroid for side in tessellation.sides[0])
+    along = tessellation.chords[0, 1] - tessellation.chords[0, 0]
+    assert along[0] * (left.y - right.y) - along[1] * (left.x - right.x) > 0.0
+
+
+@pytest.mark.parametrize("name", MergeSettings.__slots__)
+def test_settings_refuse_what_cannot_be_meant(name):
+    with pytest.raises(ValueError, match=name):
+        MergeSettings(**{name: 0.0})
