@@ -62,7 +62,8 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
     """Find the free space of a drawing.
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
-    without passing an opening narrower than `outer_opening`. Raises NotEnclosedError if nothing is enclosed.
+    without passing an opening narrower than `outer_opening`. Yards and solid blocks are still among it: what
+    tells them from rooms is how they hang together (`enclosure`). Raises NotEnclosedError if nothing is enclosed.
     """
     diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
     if diameter == 0.0:
