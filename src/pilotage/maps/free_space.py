@@ -63,7 +63,9 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
     without passing an opening narrower than `outer_opening`. Yards and solid blocks are still among it: what
-    tells them from rooms is how they hang together (`enclosure`). Raises NotEnclosedError if nothing is enclosed.
+    tells them from rooms is how they hang together (`enclosure`).
+
+    Raises NotEnclosedError if nothing is enclosed.
     """
     diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
     if diameter == 0.0:
