@@ -41,8 +41,8 @@ def find_correspondences(
     from pilotage.kernels.segment_sampling import sample_segments
 
     known = perception_map.segment_field
-    moved = tuple(shape.moved(odom_from_base) for shape in shapes)
-    points, directions, weights, owners = sample_segments(segments_of(moved), settings.sample_step)
+    points, directions, weights, owners = sample_segments(segments_of(shapes), settings.sample_step)
+    points, directions = odom_from_base @ points, directions @ odom_from_base.rotation.T
     nearest = find_nearest(points, directions, known, settings.min_cosine)
     distance = np.where(nearest == NONE, np.inf, _distance(points, known.segments[nearest]))
     hit = distance <= settings.distance

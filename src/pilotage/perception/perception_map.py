@@ -116,13 +116,16 @@ class PerceptionMap:
         stamp = registration.odometry.stamp
         seen_again = {correspondence.known for correspondence in registration.correspondences}
         last_seen = (stamp if index in seen_again else self.last_seen[index] for index in kept)
-        return replace(
+        entered = replace(
             self,
             shapes=(*(self.shapes[index] for index in kept), *new),
             last_seen=(*last_seen, *(stamp for _ in new)),
             entered_at=(*(self.entered_at[index] for index in kept), *(self.traveled for _ in new)),
             odom_from_key=registration.odom_from_base,
         )
+        is_kept = np.isin(self.shape_of_segment, kept)
+        entered.__dict__["segments"] = np.concatenate([self.segments[is_kept], segments_of(new)])
+        return entered
 
 
 _DERIVED = ("segments", "segment_field", "shape_of_segment")  # what depends on the shapes alone
