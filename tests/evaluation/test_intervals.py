@@ -1,0 +1,26 @@
+"""Intervals hold the mean as often as they say."""
+
+import numpy as np
+import pytest
+
+from pilotage.evaluation.intervals import bootstrap_interval
+
+
+def test_the_true_mean_is_held_in_about_95_of_100():
+    rng = np.random.default_rng(0)
+    held = 0
+    for _ in range(60):
+        low, high = bootstrap_interval(rng.normal(2.0, 1.0, 60), rng)
+        held += low <= 2.0 <= high
+
+    assert held >= 51
+
+
+def test_equal_values_leave_no_doubt():
+    assert (0.5, 0.5) == bootstrap_interval([0.5] * 10, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize("values", [[], [[1.0]]])
+def test_what_has_no_mean_is_refused(values):
+    with pytest.raises(ValueError, match="values"):
+        bootstrap_interval(values, np.random.default_rng(0))
