@@ -89,12 +89,12 @@ def cheapest_sequence(
     best[0, 0] = 0.0
     for i in range(k):
         for j in range(i % 2, m, 2):  # groups are odd on both sides: i + j stays even
-            if best[i, j] < bound:
+            so_far, first_c, first_d = best[i, j], (i0 + i) % k, (j0 + j) % m
+            if so_far < bound:
                 for g in range(len(sizes)):
                     i1, j1 = i + sizes[g, 0], j + sizes[g, 1]
                     if i1 <= k and j1 <= m:
-                        cost = best[i, j] + costs[g, (i0 + i) % k, (j0 + j) % m]
-                        best[i1, j1] = min(best[i1, j1], cost)
+                        best[i1, j1] = min(best[i1, j1], so_far + costs[g, first_c, first_d])
     return float(best[k, m])
 
 
