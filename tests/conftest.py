@@ -4,8 +4,12 @@ import sys
 from typing import NamedTuple
 
 import pytest
+from hypothesis import settings
 
 from pilotage.cli import main
+
+settings.register_profile("patient", deadline=None)  # the first call compiles
+settings.load_profile("patient")
 
 
 class Outcome(NamedTuple):

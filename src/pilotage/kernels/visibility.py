@@ -24,19 +24,20 @@ MAX_STRETCH = 0.8  # of p and of q: lengths up to 2.2 times too long one way and
 
 @njit(cache=True)
 def stretch_tables(directions: int) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
-    """Tabulate where a stretch turns each direction and by what it lengthens it, each (p, q, HEADINGS).
+    """Tabulate where a stretch turns each direction and by what it lengthens it, each (p, q, 2 * HEADINGS).
 
+    All directions stand there twice, so that heading and beam may be added without a division.
     The first counts in steps of 2 pi / directions, the second is a logarithm in steps of LOG_STEP.
     """
-    turned = np.empty((STRETCHES, STRETCHES, HEADINGS), np.int16)
-    lengthened = np.empty((STRETCHES, STRETCHES, HEADINGS), np.int16)
+    turned = np.empty((STRETCHES, STRETCHES, 2 * HEADINGS), np.int16)
+    lengthened = np.empty((STRETCHES, STRETCHES, 2 * HEADINGS), np.int16)
     middle = (STRETCHES - 1) / 2
     for i in range(STRETCHES):
         for j in range(STRETCHES):
             p, q = (i - middle) / middle * MAX_STRETCH, (j - middle) / middle * MAX_STRETCH
             size = math.hypot(p, q)
             share = math.sinh(size) / size if size > 0.0 else 1.0
-            for k in range(HEADINGS):
+            for k in range(2 * HEADINGS):
                 cosine, sine = math.cos(math.tau * k / HEADINGS), math.sin(math.tau * k / HEADINGS)
                 # exp([[p, q], [q, -p]]) = cosh(size) I + sinh(size) / size [[p, q], [q, -p]]
                 x = (math.cosh(size) + share * p) * cosine + share * q * sine
@@ -56,8 +57,8 @@ def stretch_level(stretch: float) -> int:
 @njit(cache=True)
 def score_hypotheses(
     states: NDArray[np.float64],
-    beams: NDArray[np.int64],
-    levels: NDArray[np.int64],
+    beams: NDArray[np.int32],
+    levels: NDArray[np.int32],
     log_ranges: NDArray[np.uint8],
     grid: tuple[float, float, float, int, int],
     tables: tuple[NDArray[np.int16], NDArray[np.int16]],
@@ -67,7 +68,7 @@ def score_hypotheses(
 ) -> NDArray[np.float64]:
     """Sum over beams the log-likelihood of the measured range where each hypothesis stands, (n,).
 
-    `beams` (m,) are directions in the robot's frame in steps of 2 pi / HEADINGS, `levels` (m,) the measured
+    `beams` (m,) are directions in the robot's frame, 0 .. HEADINGS - 1 steps, `levels` (m,) the measured
     ranges as log metres in steps of LOG_STEP, or NO_RETURN. `log_ranges` (columns * rows, directions) is the
     drawing's range table on the grid (left, bottom, cell size, columns, rows). `log_likelihoods` (2 k + 1,)
     is indexed by k + log(predicted / measured) in steps of LOG_STEP. A beam that did not come back costs
@@ -77,7 +78,7 @@ def score_hypotheses(
     left, bottom, cell, columns, rows = grid
     turned, lengthened = tables
     scores = np.empty(states.shape[1])
-    widest = (len(log_likelihoods) - 1) // 2
+    widest = np.int32((len(log_likelihoods) - 1) // 2)
     log_cell = math.log(cell)
     for i in range(states.shape[1]):
         column = math.floor((states[0, i] - left) / cell)
@@ -88,12 +89,12 @@ def score_hypotheses(
         ranges = log_ranges[column * rows + row]
         level_p, level_q = stretch_level(states[4, i]), stretch_level(states[5, i])
         directions, lengths = turned[level_p, level_q], lengthened[level_p, level_q]
-        heading = math.floor(states[2, i] / math.tau * HEADINGS + 0.5)
-        shift = round((log_cell - states[3, i]) / LOG_STEP) - LOG_ZERO
+        heading = math.floor(states[2, i] / math.tau * HEADINGS + 0.5) % HEADINGS
+        shift = np.int32(round((log_cell - states[3, i]) / LOG_STEP) - LOG_ZERO)
         score = np.float32(0.0)
         for j in range(len(beams)):
-            direction = (heading + beams[j]) % HEADINGS
-            predicted = ranges[directions[direction]] + shift - lengths[direction]
+            direction = heading + beams[j]
+            predicted = np.int32(ranges[directions[direction]]) + shift - np.int32(lengths[direction])
             if levels[j] == NO_RETURN:
                 if predicted < no_return[0]:
                     score += no_return[1]

@@ -1,12 +1,15 @@
 """Where the robot is on the drawing: the only layer that knows both scan and map (Wolter 2001, section 3)."""
 
+from pilotage.localization.alignment import AlignmentSettings
 from pilotage.localization.estimate import Estimate, EstimateSettings, Hypothesis, Status
 from pilotage.localization.localizer import Localizer, LocalizerSettings
+from pilotage.localization.proposals import Prior
 from pilotage.localization.registration import RegistrationSettings, register
-from pilotage.localization.tracking import Drift, Prior, TrackingSettings
+from pilotage.localization.tracking import Drift, TrackingSettings
 from pilotage.localization.visibility import VisibilitySettings
 
 __all__ = [
+    "AlignmentSettings",
     "Drift",
     "Estimate",
     "EstimateSettings",

@@ -43,20 +43,19 @@ class Belief:
         states = self.states[:, np.minimum(picked, len(self) - 1)]
         return Belief(states, np.zeros(count))
 
+    def mixed(self, other: "Belief", share: float, rng: np.random.Generator) -> "Belief":
+        """Give a share of the whole to another belief; the count stays."""
+        taken = round(share * len(self))
+        states = [self.resampled(len(self) - taken, rng).states, other.resampled(taken, rng).states]
+        return Belief(np.hstack(states), np.zeros(len(self)))
 
-def stretched(states: Array, points_x: Array | float, points_y: Array | float) -> Array:
-    """Carry one displacement in the robot's frame [m] to the sketch under each hypothesis, (2, n)."""
-    cosine, sine = np.cos(states[HEADING]), np.sin(states[HEADING])
-    x, y = cosine * points_x - sine * points_y, sine * points_x + cosine * points_y
-    p, q = states[STRETCH_P], states[STRETCH_Q]
-    size = np.hypot(p, q)
-    share = np.sinh(size) / np.maximum(size, np.finfo(float).tiny)
-    share = np.where(size > 0.0, share, 1.0)
-    scale, even = np.exp(states[LOG_SCALE]), np.cosh(size)
-    # exp([[p, q], [q, -p]]) = cosh(size) I + sinh(size) / size [[p, q], [q, -p]]
-    return np.stack(
-        [scale * ((even + share * p) * x + share * q * y), scale * (share * q * x + (even - share * p) * y)]
-    )
+
+def stretched(states: Array, x: Array | float, y: Array | float) -> Array:
+    """Carry a displacement in the robot's frame [m] to the sketch under each hypothesis, (2, n)."""
+    from pilotage.kernels.displacement import displace
+
+    count = states.shape[1]
+    return displace(states, np.broadcast_to(np.float64(x), count), np.broadcast_to(np.float64(y), count))
 
 
 def mean_state(states: Array, weights: Array) -> Array:

@@ -1,9 +1,11 @@
 """What is claimed of the robot's place: never one global pose, but a place and a local similarity."""
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Similarity2
 from pilotage.localization.belief import LOG_SCALE, Belief, X, Y, mean_state, similarity_of
@@ -45,12 +47,15 @@ class EstimateSettings:
     block: float = 1.0  # [m] hypotheses are gathered over three by three blocks of this size
     hypotheses: int = 5  # how many places are told, at most
     least: float = 0.02  # probability of a place that is worth telling
+    confirmation: float = 4.0  # [m] of way on which confidence makes up two thirds of what it lacks
+    jump: float = 2.0  # [m] beyond which it is another place that became the most probable
     located: float = 0.5  # confidence from which on the robot claims to be located
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        if not self.block > 0.0:
-            raise ValueError(f"block must be > 0 m, got {self.block}")
+        for name in ("block", "confirmation", "jump"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0 m, got {getattr(self, name)}")
         if not self.hypotheses >= 1:
             raise ValueError(f"hypotheses must be >= 1, got {self.hypotheses}")
         for name in ("least", "located"):
@@ -61,11 +66,11 @@ class EstimateSettings:
 def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tuple[Hypothesis, ...]:
     """Gather hypotheses that stand close together into places, the most probable first; at least one."""
     block = settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
-    columns, rows = (
-        np.floor((belief.states[row] - belief.states[row].min()) / block).astype(np.int64) for row in (X, Y)
-    )
-    remaining = np.zeros((int(columns.max()) + 3, int(rows.max()) + 3))  # a margin of one block all around
-    np.add.at(remaining, (columns + 1, rows + 1), belief.weights)
+    columns, rows = _blocks(belief, atlas, block)
+    shape = int(columns.max()) + 3, int(rows.max()) + 3  # a margin of one block all around
+    flat = (columns + 1) * shape[1] + rows + 1
+    masses = np.bincount(flat, belief.weights, shape[0] * shape[1])
+    remaining = np.asarray(masses, dtype=np.float64).reshape(shape)
     found: list[Hypothesis] = []
     while len(found) < settings.hypotheses:
         summed = _around(remaining)
@@ -79,11 +84,23 @@ def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tup
     return tuple(found)
 
 
+def _blocks(belief: Belief, atlas: Atlas, block: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Tell which block each hypothesis stands in, (n,), (n,); far off the drawing is at its rim."""
+    table = atlas.range_table
+    left, bottom = table.corner
+    extents = table.columns * table.cell_size, table.rows * table.cell_size
+    across, up = (
+        np.clip((belief.states[row] - start) / block, -1.0, extent / block + 1.0).astype(np.int64) + 1
+        for row, start, extent in zip((X, Y), (left, bottom), extents, strict=True)
+    )
+    return across, up
+
+
 def _around(blocks: Array) -> Array:
     """Sum each block with its eight neighbors, the margin left out."""
     columns, rows = blocks.shape[0] - 2, blocks.shape[1] - 2
     shifts = [(i, j) for i in range(3) for j in range(3)]
-    return np.asarray(sum(blocks[i : i + columns, j : j + rows] for i, j in shifts))
+    return np.asarray(sum(blocks[i : i + columns, j : j + rows] for i, j in shifts), dtype=np.float64)
 
 
 def _place(states: Array, weights: Array, atlas: Atlas) -> Hypothesis:
@@ -94,8 +111,25 @@ def _place(states: Array, weights: Array, atlas: Atlas) -> Hypothesis:
     )
 
 
-def estimate_from(places: tuple[Hypothesis, ...], stamp: float, settings: EstimateSettings) -> Estimate:
+def steady_confidence(
+    confidence: float, carried: Hypothesis, best: Hypothesis, distance: float, settings: EstimateSettings
+) -> float:
+    """Let confidence grow with the way [m] on which the same place stays the most probable.
+
+    A share of the weights alone is badly overconfident: wrong places look certain for a few metres. A jump
+    from the place `carried` along by the robot's motion begins anew.
+    """
+    before, now = carried.sketch_from_base.pose, best.sketch_from_base.pose
+    jump = math.hypot(now.x - before.x, now.y - before.y) / best.sketch_from_base.scale
+    kept = confidence if jump <= settings.jump else 0.0
+    return kept + (best.probability - kept) * -math.expm1(-distance / settings.confirmation)
+
+
+def estimate_from(
+    places: tuple[Hypothesis, ...], confidence: float, stamp: float, settings: EstimateSettings
+) -> Estimate:
     """Claim the most probable place."""
     best = places[0]
-    status = Status.LOCATED if best.probability >= settings.located else Status.LOST
-    return Estimate(stamp, status, best.cell_id, best.sketch_from_base, best.probability, places)
+    confidence = min(confidence, best.probability)
+    status = Status.LOCATED if confidence >= settings.located else Status.LOST
+    return Estimate(stamp, status, best.cell_id, best.sketch_from_base, confidence, places)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pilotage.geometry import Array, Pose2
+from pilotage.localization.alignment import AlignmentSettings, View, align, extend_views, trust_in
 from pilotage.localization.belief import Belief
 from pilotage.localization.estimate import (
     Estimate,
@@ -13,13 +14,16 @@ from pilotage.localization.estimate import (
     Hypothesis,
     estimate_from,
     find_places,
+    steady_confidence,
 )
+from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
 from pilotage.localization.registration import RegistrationSettings, register
-from pilotage.localization.tracking import TrackingSettings, draw_anywhere, draw_near, predict, weigh
+from pilotage.localization.tracking import TrackingSettings, predict, weigh
 from pilotage.localization.visibility import VisibilityModel, VisibilitySettings, look
-from pilotage.maps import AtlasSettings, SchematicMap, build_atlas
+from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry, PerceptionMap, PerceptionSettings, perceive
 from pilotage.perception.perception_map import PerceptionMapSettings
+from pilotage.shape.corners import find_corners
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +35,7 @@ class LocalizerSettings:
     perception_map: PerceptionMapSettings = field(default_factory=PerceptionMapSettings)
     registration: RegistrationSettings = field(default_factory=RegistrationSettings)
     visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
+    alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
     tracking: TrackingSettings = field(default_factory=TrackingSettings)
     estimate: EstimateSettings = field(default_factory=EstimateSettings)
     step: float = 0.5  # [m] belief is weighed anew once the robot has moved this far
@@ -46,13 +51,14 @@ class LocalizerSettings:
 class Localizer:
     """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
 
-    `start` is a pose in the sketch (y up), `scale` drawing units per metre; without them the robot may be
+    Give it a drawing, or an atlas that was built of one before. `start` is a pose in the sketch (y up),
+    `scale` drawing units per metre; without them the robot may be
     anywhere, at any heading, and the drawing of any scale. Raises ValueError if these cannot be meant.
     """
 
     def __init__(
         self,
-        sketch: SchematicMap,
+        drawing: SchematicMap | Atlas,
         settings: LocalizerSettings | None = None,
         *,
         seed: int = 0,
@@ -63,7 +69,7 @@ class Localizer:
         if scale is not None and not (scale > 0.0 and math.isfinite(scale)):
             raise ValueError(f"scale must be positive and finite, got {scale}")
         self._rng = np.random.default_rng(seed)
-        self.atlas = build_atlas(sketch, self.settings.atlas)
+        self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
         tracking = self.settings.tracking
         if scale is not None:
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
@@ -75,7 +81,9 @@ class Localizer:
         self.perception_map = PerceptionMap(self.settings.perception_map)
         self.belief = Belief(self._first_states(start), np.zeros(tracking.first_count))
         self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
+        self._views: tuple[View, ...] = ()
         self._places: tuple[Hypothesis, ...] = ()
+        self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Take one scan in, give one estimate out."""
@@ -85,20 +93,44 @@ class Localizer:
         self.perception_map = self.perception_map.merged(registration)
         motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
         if self._motion is None or self._is_due(motion):
-            self.belief = predict(self.belief, motion, self.atlas, self._tracking, self._rng)
-            seen = look(scan, settings.visibility)
-            self.belief = weigh(self.belief, seen, self._model, self._tracking, self._rng)  # 3.4
-            self._places = find_places(self.belief, self.atlas, settings.estimate)
+            self._weigh(scan, motion)
             motion = Pose2.identity()
         self._motion = motion
-        return estimate_from(self._moved_places(motion), scan.stamp, settings.estimate)
+        return estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
+
+    def _weigh(self, scan: LaserScan, motion: Pose2) -> None:
+        """Carry belief along, weigh it by what is seen now, and hold it against a search of the drawing."""
+        settings, rng = self.settings, self._rng
+        seen = look(scan, settings.visibility)
+        self._views = extend_views(self._views, motion, seen, settings.alignment.window)
+        belief = predict(self.belief, motion, self.atlas, self._tracking, rng)
+        belief = weigh(belief, seen, self._model, self._tracking, rng)  # 3.4
+        fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
+        sample = belief.resampled(len(fresh), rng).states
+        share = trust_in(fresh, sample, self._views, self._model, settings.alignment)
+        self.belief = belief.mixed(fresh, share, rng)
+        carried = self._moved_places(motion)
+        self._places = find_places(self.belief, self.atlas, settings.estimate)
+        if carried:
+            way = math.hypot(motion.x, motion.y)
+            self._confidence = steady_confidence(
+                self._confidence, carried[0], self._places[0], way, settings.estimate
+            )
 
     def _first_states(self, start: Pose2 | None) -> Array:
         """Draw hypotheses before the first scan."""
         tracking = self._tracking
         if start is None:
-            return draw_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
-        return draw_near(start, self.atlas, tracking.prior, tracking.first_count, self._rng)
+            return propose_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
+        return propose_near(start, self.atlas, tracking.prior, tracking.first_count, self._rng)
+
+    def _proposals(self) -> Array:
+        """Propose places for an alignment: half where corners agree, half anywhere."""
+        count, prior = self.settings.alignment.proposals // 2, self._tracking.prior
+        base_from_odom = self.perception_map.odom_from_base.inverse()
+        seen = find_corners(shape.polyline.moved(base_from_odom) for shape in self.perception_map.shapes)
+        by_corners = propose_by_corners(seen, self.atlas, prior, count, self._rng)
+        return np.hstack([by_corners, propose_anywhere(self.atlas, prior, count, self._rng)])
 
     def _is_due(self, motion: Pose2) -> bool:
         """Tell whether the robot moved far enough to see anything new."""

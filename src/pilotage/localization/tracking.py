@@ -1,25 +1,15 @@
 """Carry belief from scan to scan: a long walk settles what one look cannot (Wolter 2001, section 3.4)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2
+from pilotage.geometry import Pose2
 from pilotage.localization.belief import HEADING, LOG_SCALE, STRETCH_P, STRETCH_Q, Belief, X, Y, stretched
+from pilotage.localization.proposals import Prior
 from pilotage.localization.visibility import Look, VisibilityModel
 from pilotage.maps import Atlas
-
-
-@dataclass(frozen=True, slots=True)
-class Prior:
-    """What is known before the first scan."""
-
-    log_scale: float = 0.45  # deviation of the guess that the drawing allows
-    stretch: float = 0.25  # deviation of p and q: proportions 30 % off are common
-    known_log_scale: float = 0.2  # deviation where the user gave a scale: drawings vary by place
-    known_place: float = 1.0  # [m] deviation where the user gave a start
-    known_heading: float = math.radians(10.0)  # [rad] the same
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +31,11 @@ class Drift:
 class TrackingSettings:
     """How belief is carried."""
 
-    prior: Prior = Prior()
-    drift: Drift = Drift()
-    first_count: int = 400_000  # hypotheses before the first scan
-    count: int = 40_000  # hypotheses once most are settled
-    shrink: float = 0.6  # share kept at each resampling on the way from the first count to the last
+    prior: Prior = field(default_factory=Prior)
+    drift: Drift = field(default_factory=Drift)
+    first_count: int = 200_000  # hypotheses before the first scan
+    count: int = 50_000  # hypotheses once most are settled
+    shrink: float = 0.5  # share kept at each resampling on the way from the first count to the last
     resample_below: float = 0.5  # share of effective hypotheses below which belief is resampled
     wall_penalty: float = 3.0  # log-odds of walking through a drawn wall: a door forgotten, a wall moved
     wall_tolerance: float = 0.2  # log of how much longer than the way to the wall a step may be
@@ -58,34 +48,6 @@ class TrackingSettings:
             )
         if not 0.0 < self.shrink <= 1.0:
             raise ValueError(f"shrink must be in (0, 1], got {self.shrink}")
-
-
-def draw_anywhere(atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
-    """Draw hypotheses evenly over the drawing's free space, with any heading, (6, count)."""
-    table = atlas.range_table
-    chosen = np.arange(count) * len(table.places) // count
-    if count < len(table.places):
-        chosen = rng.choice(len(table.places), count)
-    places = table.places[chosen] + (rng.random((count, 2)) - 0.5) * table.cell_size
-    return np.stack(
-        [
-            *places.T,
-            rng.uniform(-math.pi, math.pi, count),
-            atlas.log_scale + prior.log_scale * rng.standard_normal(count),
-            prior.stretch * rng.standard_normal(count),
-            prior.stretch * rng.standard_normal(count),
-        ]
-    )
-
-
-def draw_near(start: Pose2, atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
-    """Draw hypotheses around a pose in the sketch that the user gave, (6, count)."""
-    states = draw_anywhere(atlas, prior, count, rng)
-    scale = np.exp(states[LOG_SCALE])
-    states[X] = start.x + prior.known_place * scale * rng.standard_normal(count)
-    states[Y] = start.y + prior.known_place * scale * rng.standard_normal(count)
-    states[HEADING] = start.theta + prior.known_heading * rng.standard_normal(count)
-    return states
 
 
 def predict(

@@ -23,7 +23,7 @@ WIDEST = 12.0
 class VisibilitySettings:
     """How measured and predicted ranges differ, e = log(predicted / measured)."""
 
-    beams: int = 60  # of a scan, evenly spaced, are looked at
+    beams: int = 45  # of a scan, evenly spaced, are looked at
     farthest: float = 30.0  # [m] ranges beyond count as no return
     nearest: float = 0.05  # [m] ranges below are dust, or the robot itself
     deviation: float = 0.15  # of e where a drawn wall is seen: walls are drawn 15 % off
@@ -35,7 +35,7 @@ class VisibilitySettings:
     no_return: float = 0.15  # probability of no return although a wall is predicted nearer than ...
     no_return_beyond: float = 15.0  # [m] ... this: glass, black and grazed walls
     outside: float = 0.05  # likelihood of each beam where nothing is drawn
-    effective_beams: float = 2.0  # beams err together: those of a scan weigh as much as so many
+    effective_beams: float = 3.0  # beams err together: those of a scan weigh as much as so many
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
@@ -59,8 +59,8 @@ class VisibilitySettings:
 class Look:
     """What a scan shows, thinned for comparison with a drawing: directions and log ranges in whole steps."""
 
-    beams: NDArray[np.int64]  # (m,) directions in the robot's frame, in steps of 2 pi / HEADINGS
-    levels: NDArray[np.int64]  # (m,) log metres in steps of LOG_STEP, or NO_RETURN
+    beams: NDArray[np.int32]  # (m,) directions in the robot's frame, 0 .. HEADINGS - 1 steps
+    levels: NDArray[np.int32]  # (m,) log metres in steps of LOG_STEP, or NO_RETURN
 
     def __len__(self) -> int:
         """Count the beams."""
@@ -79,9 +79,9 @@ def look(scan: LaserScan, settings: VisibilitySettings) -> Look:
     reached = np.where(returned, ranges, settings.farthest)
     ends = np.column_stack([reached * np.cos(directions), reached * np.sin(directions)])
     x, y = (scan.base_from_laser @ ends).T
-    beams = np.round(np.arctan2(y, x) / math.tau * HEADINGS).astype(np.int64)
-    levels = np.round(np.log(np.maximum(np.hypot(x, y), settings.nearest)) / LOG_STEP).astype(np.int64)
-    return Look(beams, np.where(returned, levels, NO_RETURN))
+    beams = np.round(np.arctan2(y, x) / math.tau * HEADINGS).astype(np.int32) % HEADINGS
+    levels = np.round(np.log(np.maximum(np.hypot(x, y), settings.nearest)) / LOG_STEP)
+    return Look(beams, np.where(returned, levels, NO_RETURN).astype(np.int32))
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from pilotage.geometry import Polyline
 from pilotage.maps.cells import CellGraph
 from pilotage.maps.decomposition import DecompositionSettings, decompose
+from pilotage.maps.free_space import NotEnclosedError
 from pilotage.maps.range_table import RangeTable, RangeTableSettings, build_range_table
 from pilotage.maps.schematic import SchematicMap
+from pilotage.shape.corners import Corners, find_corners
+from pilotage.shape.simplify import Simplification, simplify, simplify_all
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +29,7 @@ class AtlasSettings:
 
     range_table: RangeTableSettings = field(default_factory=RangeTableSettings)
     decomposition: DecompositionSettings = field(default_factory=DecompositionSettings)
+    detail: float = 0.0025  # least relevance of a corner [rad], as a share of the drawing's diagonal
     scale_guess: ScaleGuess = field(default_factory=ScaleGuess)
 
 
@@ -35,6 +40,7 @@ class Atlas:
     sketch: SchematicMap
     range_table: RangeTable
     cell_graph: CellGraph | None  # None if the drawing encloses nothing
+    corners: Corners  # as seen from free space
     log_scale: float  # [log drawing units per metre] a first guess, good to a factor of about 1.5
 
     def cell_at(self, point: tuple[float, float]) -> str:
@@ -47,9 +53,24 @@ def build_atlas(sketch: SchematicMap, settings: AtlasSettings) -> Atlas:
     range_table = build_range_table(sketch, settings.range_table)
     try:
         cell_graph = decompose(sketch, settings.decomposition)
-    except ValueError:  # it encloses no free space: there is still something to see
+    except NotEnclosedError:  # it encloses no free space: there is still something to see
         cell_graph = None
-    return Atlas(sketch, range_table, cell_graph, guess_log_scale(sketch, range_table, settings.scale_guess))
+    corners = find_drawn_corners(sketch, cell_graph, settings.detail)
+    return Atlas(
+        sketch, range_table, cell_graph, corners, guess_log_scale(sketch, range_table, settings.scale_guess)
+    )
+
+
+def find_drawn_corners(sketch: SchematicMap, cell_graph: CellGraph | None, detail: float) -> Corners:
+    """Find corners of the strongly simplified strokes, from both sides, and of the cells, from within.
+
+    Strokes that only touch make a corner too: it is the outline of a cell that shows it.
+    """
+    least = Simplification(detail * sketch.diagonal)
+    of_strokes = find_corners(simplify_all(sketch.strokes, least))
+    outlines = [Polyline(cell.outline, closed=True) for cell in cell_graph.cells] if cell_graph else []
+    of_cells = find_corners(simplify(outline, least) for outline in outlines)
+    return of_strokes.joined(of_strokes.reversed()).joined(of_cells)
 
 
 def guess_log_scale(sketch: SchematicMap, range_table: RangeTable, guess: ScaleGuess) -> float:

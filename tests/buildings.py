@@ -1,0 +1,51 @@
+"""Small buildings and robots for the tests of localization."""
+
+import itertools
+import math
+
+import numpy as np
+
+from pilotage.geometry import Polyline, Pose2
+from pilotage.kernels.raycast import cast
+from pilotage.maps import SchematicMap
+from pilotage.perception import LaserScan, Odometry
+
+# An L-shaped flat [m]: a long room with an alcove, and a smaller room behind a door.
+WALLS = (
+    Polyline.through([(0, 0), (8, 0), (8, 3), (10, 3), (10, 7), (6, 7), (6, 4.2)]),
+    Polyline.through([(6, 3.2), (6, 3), (3, 3), (3, 7), (0, 7), (0, 0)]),
+    Polyline.through([(6, 7), (3, 7)]),
+)
+
+
+def flat(scale=1.0, sketch_from_world=None):
+    """Draw the flat, so many units a metre, moved as a whole."""
+    pose = sketch_from_world or Pose2.identity()
+    return SchematicMap(tuple(Polyline(scale * wall.vertices).moved(pose) for wall in WALLS))
+
+
+def scan_at(pose, stamp=0.0, beams=181, fov=math.pi, walls=WALLS):
+    """Sense the true flat without noise."""
+    directions = np.linspace(-fov / 2, fov / 2, beams)
+    segments = np.vstack([np.hstack([wall.ring[:-1], wall.ring[1:]]) for wall in walls])
+    ranges = cast(np.tile(pose.position, (beams, 1)), pose.theta + directions, segments)
+    return LaserScan(stamp, -fov / 2, fov / (beams - 1), ranges, range_max=30.0)
+
+
+def walk():
+    """Walk from the long room's far end through the alcove's side, in steps of 0.25 m; poses in the world."""
+    corners = np.array([(1.0, 6.0), (1.0, 1.5), (7.0, 1.5), (7.0, 3.6), (8.5, 5.0)])
+    poses = []
+    for start, end in itertools.pairwise(corners):
+        heading = math.atan2(*(end - start)[::-1])
+        steps = max(round(np.hypot(*(end - start)) / 0.25), 1)
+        poses += [Pose2(*(start + (end - start) * k / steps), heading) for k in range(steps)]
+    return poses
+
+
+def readings_of(poses):
+    """Take a scan at each pose; odometry is right but for its frame."""
+    odom_from_world = Pose2(3.0, -2.0, 0.7)
+    return [
+        (scan_at(pose, float(k)), Odometry(float(k), odom_from_world @ pose)) for k, pose in enumerate(poses)
+    ]

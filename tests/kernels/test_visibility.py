@@ -1,0 +1,110 @@
+import math
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pilotage.kernels import visibility as kernel
+
+DIRECTIONS = 180
+GRID = (-2.0, -2.0, 0.1, 40, 40)
+
+
+def room_table():
+    """Levels in the empty square |x|, |y| < 2, exactly, and the ranges themselves."""
+    ranges = np.empty((1600, DIRECTIONS))
+    for column in range(40):
+        for row in range(40):
+            x, y = -1.95 + 0.1 * column, -1.95 + 0.1 * row
+            for k in range(DIRECTIONS):
+                cosine, sine = math.cos(math.tau * k / DIRECTIONS), math.sin(math.tau * k / DIRECTIONS)
+                reach_x = ((2 if cosine > 0 else -2) - x) / cosine if abs(cosine) > 1e-9 else math.inf
+                reach_y = ((2 if sine > 0 else -2) - y) / sine if abs(sine) > 1e-9 else math.inf
+                ranges[40 * column + row, k] = min(reach_x, reach_y)
+    levels = np.round(np.log(ranges / 0.1) / kernel.LOG_STEP) + kernel.LOG_ZERO
+    return np.clip(levels, 0, 255).astype(np.uint8), ranges
+
+
+LEVELS, RANGES = room_table()
+STEEP = -np.abs(np.arange(-400, 401) * kernel.LOG_STEP).astype(np.float32)  # log-likelihood is -|e|
+
+
+def plain_score(state, beams, ranges):
+    """The definition, in metres and radians: sum of -|log(predicted / measured)|."""
+    x, y, heading, log_scale, p, q = state
+    cell = 40 * math.floor((x + 2) / 0.1) + math.floor((y + 2) / 0.1)
+    values, vectors = np.linalg.eigh([[p, q], [q, -p]])
+    stretch = vectors @ np.diag(np.exp(values)) @ vectors.T
+    score = 0.0
+    for beam, measured in zip(beams, ranges, strict=True):
+        angle = heading + beam * math.tau / kernel.HEADINGS
+        vector = math.exp(log_scale) * stretch @ (math.cos(angle), math.sin(angle))
+        direction = round(math.atan2(vector[1], vector[0]) / math.tau * DIRECTIONS) % DIRECTIONS
+        score -= abs(math.log(RANGES[cell, direction] / math.hypot(*vector) / measured))
+    return score
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    place=st.tuples(st.floats(-1.9, 1.9), st.floats(-1.9, 1.9)),
+    heading=st.floats(-7.0, 7.0),
+    log_scale=st.floats(-1.0, 1.0),
+    stretch=st.tuples(st.sampled_from([-0.4, 0.0, 0.2]), st.sampled_from([-0.2, 0.0, 0.6])),
+    ranges=st.lists(st.floats(0.3, 5.0), min_size=1, max_size=20),
+)
+def test_scores_follow_the_definition(place, heading, log_scale, stretch, ranges):
+    beams = np.arange(len(ranges), dtype=np.int32) * 11 % kernel.HEADINGS
+    heading = round(heading / math.tau * kernel.HEADINGS) * math.tau / kernel.HEADINGS
+    state = np.array([*place, heading, log_scale, *stretch])
+    levels = np.round(np.log(ranges) / kernel.LOG_STEP).astype(np.int32)
+
+    score = kernel.score_hypotheses(
+        state[:, np.newaxis],
+        beams,
+        levels,
+        LEVELS,
+        GRID,
+        kernel.stretch_tables(DIRECTIONS),
+        STEEP,
+        (0, 0.0),
+        -1.0,
+    )[0]
+
+    # four lengths are rounded to whole steps, and a direction may fall to either side of a half step
+    assert abs(score - plain_score(state, beams, ranges)) <= len(ranges) * (2 * kernel.LOG_STEP + 0.05)
+
+
+def score_one(x, levels, no_return=(0, -3.0)):
+    state = np.array([[x], [0.01], [0.0], [0.0], [0.0], [0.0]])
+    beams = np.zeros(len(levels), np.int32)
+    tables = kernel.stretch_tables(DIRECTIONS)
+    levels = np.array(levels, np.int32)
+    return kernel.score_hypotheses(state, beams, levels, LEVELS, GRID, tables, STEEP, no_return, -5.0)[0]
+
+
+def test_a_hypothesis_off_the_drawing_pays_for_every_beam():
+    assert -10.0 == score_one(3.0, [0, 0])
+
+
+def test_no_return_costs_where_a_wall_is_near_and_only_there():
+    two_meters = round(math.log(2.0) / kernel.LOG_STEP)
+
+    assert -3.0 == score_one(0.01, [kernel.NO_RETURN], (two_meters + 2, -3.0))
+    assert 0.0 == score_one(0.01, [kernel.NO_RETURN], (two_meters - 2, -3.0))
+
+
+def test_no_stretch_turns_and_lengthens_nothing():
+    turned, lengthened = kernel.stretch_tables(kernel.HEADINGS)
+    middle = kernel.STRETCHES // 2
+
+    assert (np.arange(2 * kernel.HEADINGS) % kernel.HEADINGS == turned[middle, middle]).all()
+    assert (lengthened[middle, middle] == 0).all()
+
+
+def test_a_step_through_a_wall_is_blocked():
+    starts = np.array([[0.0, 0.0, 1.5, 5.0], [0.0, 0.0, 0.0, 0.0]])
+    steps = np.array([[1.8, 2.5, 1.0, 0.1], [0.0, 0.0, 0.0, 0.0]])
+
+    blocked = kernel.find_blocked(starts, steps, LEVELS, GRID, 1)
+
+    assert [False, True, True, True] == blocked.tolist()
