@@ -9,6 +9,8 @@ from pilotage.geometry import Array, Pose2
 from pilotage.localization.odometry_guess import Guess
 from pilotage.localization.registration_settings import RegistrationSettings
 from pilotage.perception import OdometryNoise, PerceptionMap
+from pilotage.perception.perception_map import segments_of
+from pilotage.shape.partial import PartialShape
 
 
 class Samples(NamedTuple):
@@ -17,6 +19,20 @@ class Samples(NamedTuple):
     points: Array  # (n, 2)
     directions: Array  # (n, 2)
     weights: Array  # (n,)
+
+
+def take_samples(shapes: tuple[PartialShape, ...], settings: RegistrationSettings) -> Samples:
+    """Place points along shapes in the base frame, near which the laser sits.
+
+    A wall seen at a grazing angle shows few returns on much length, and where it lies along the line of sight
+    is doubtful: it weighs by the sine of the angle, up to the angle from which all weigh by their length.
+    """
+    from pilotage.kernels.segment_sampling import sample_segments
+
+    points, directions, weights, _ = sample_segments(segments_of(shapes), settings.sample_step)
+    ranges = np.maximum(np.hypot(points[:, 0], points[:, 1]), np.finfo(float).tiny)
+    sines = np.abs(points[:, 0] * directions[:, 1] - points[:, 1] * directions[:, 0]) / ranges
+    return Samples(points, directions, weights * np.minimum(sines / math.sin(settings.full_incidence), 1.0))
 
 
 class Fit(NamedTuple):

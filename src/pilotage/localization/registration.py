@@ -19,13 +19,12 @@ import math
 import numpy as np
 
 from pilotage.geometry import Pose2, frozen_array
-from pilotage.localization.fitting import Samples, find_best_fit, fit_at
+from pilotage.localization.fitting import find_best_fit, fit_at, take_samples
 from pilotage.localization.odometry_guess import Guess, learn, predict
 from pilotage.localization.overlap import find_correspondences
 from pilotage.localization.registration_settings import Method, RegistrationSettings
 from pilotage.localization.shape_registration import find_pose_by_shape
 from pilotage.perception import Odometry, PerceptionMap, Registration
-from pilotage.perception.perception_map import segments_of
 from pilotage.shape.partial import PartialShape
 
 __all__ = ["Method", "RegistrationSettings", "register"]
@@ -41,11 +40,9 @@ def register(
 
     With an empty map, or shapes that match nothing, the motion is that of odometry.
     """
-    from pilotage.kernels.segment_sampling import sample_segments
-
     guess = predict(perception_map, odometry)
-    samples = Samples(*sample_segments(segments_of(shapes), settings.sample_step)[:3])
-    if len(samples.points) == 0 or len(perception_map.segments) == 0:
+    samples = take_samples(shapes, settings)
+    if not samples.weights.any() or len(perception_map.segments) == 0:
         return _unregistered(shapes, perception_map, odometry, guess)
     if settings.method is Method.SHAPES:
         pose = find_pose_by_shape(shapes, perception_map.shapes, guess.odom_from_base, settings.shape)

@@ -45,6 +45,7 @@ class RegistrationSettings:
     shape: ShapeSettings = field(default_factory=ShapeSettings)
     overlap: OverlapSettings = field(default_factory=OverlapSettings)
     sample_step: float = 0.05  # [m] between the points that stand for a shape
+    full_incidence: float = math.radians(25.0)  # [rad] walls seen at a smaller angle than this weigh less
     widths: tuple[float, ...] = (0.5, 0.35, 0.25, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.05, 0.05, 0.05)  # [m]
     deviation: float = 0.14  # [m] of one sampled point; neighbors err alike, so it is more than a range's
     min_cosine: float = 0.5  # lines less than 60 degrees apart may be the same

@@ -20,6 +20,7 @@ class ShapeSettings:
     matching: Matching = field(default_factory=Matching)
     gate: float = 0.5  # [m] shapes farther apart than this, where odometry puts them, are not compared
     max_vertices: int = 12  # nor are longer ones: the time grows with the square of their numbers
+    max_cost: float = -0.045  # [rad²] a meter of match: the threshold of step 2; the reward alone is -0.05
 
 
 def find_pose_by_shape(
@@ -58,6 +59,7 @@ def _best_match(
         gap = np.maximum(np.maximum(other_low - high, low - other_high), 0.0)
         if len(other.polyline) <= settings.max_vertices and np.hypot(*gap) <= settings.gate:
             matches += match_partial_near(shape, other, odom_from_base, settings.matching)[:1]
+    matches = [match for match in matches if match.cost <= settings.max_cost * match.length]
     return (min(matches, key=lambda match: match.cost),) if matches else ()
 
 
