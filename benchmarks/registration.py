@@ -5,8 +5,8 @@
 Pairs of consecutive scans, thinned to a motion of at least 0.5 m or 20 degrees, ranges cut at 30 m. The guess
 is the raw odometry, as it is and spoilt by noise of 30 % of the distance and 20 degrees a meter. Each scan is
 registered into the local map of the scans before it. A step is good when it errs by less than 0.2 m and
-3 degrees. Settings were chosen on csail, aces, and the first 500 steps of freiburg-079 and infinite-corridor;
-the rest of these two, freiburg-101, belgioioso and fhw were held back.
+3 degrees. Settings were chosen on csail, aces, freiburg-079 and the first 500 steps of infinite-corridor; the
+rest of it, freiburg-101, belgioioso and fhw were held back.
 
 `--shapes` adds a row for the registration of the paper, by shape alone; it is slow.
 """

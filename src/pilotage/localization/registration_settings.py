@@ -20,8 +20,8 @@ class SearchSettings:
     """Where refinement starts: at the best of many poses, each tried with a part of the scan."""
 
     points: int = 80  # of the scan, at most
-    count: int = 8  # poses returned
-    turn_step: float = math.radians(3.0)  # [rad] between headings
+    count: int = 10  # poses returned
+    turn_step: float = math.radians(2.0)  # [rad] between headings
     stride: int = 2  # cells of the map's field between places
     width: float = 0.3  # [m] at which a point counts half
     reach: float = 3.0  # deviations of odometry within which poses are tried
