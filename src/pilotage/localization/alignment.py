@@ -13,13 +13,15 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array, Pose2
 from pilotage.localization.belief import HEADING, LOG_SCALE, Belief, X, Y, stretched
 from pilotage.localization.visibility import Look, VisibilityModel
+from pilotage.shape.corners import Corners
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A look, from where it was taken, and after how much travel."""
+    """What was seen, from where, and after how much travel."""
 
     look: Look
+    corners: Corners  # in the frame of the robot [m]
     odom_from_base: Pose2
     way: float  # [m]
 
@@ -50,14 +52,25 @@ class AlignmentSettings:
             raise ValueError(f"trust must be in [0, 1], got {self.trust}")
 
 
-def extend_views(views: tuple[View, ...], motion: Pose2, seen: Look, window: float) -> tuple[View, ...]:
-    """Add a look taken after a motion, and forget those from before the window [m]."""
+def extend_views(
+    views: tuple[View, ...], motion: Pose2, seen: Look, corners: Corners, window: float
+) -> tuple[View, ...]:
+    """Add what was seen after a motion, and forget what was seen before the window [m]."""
     if not views:
-        return (View(seen, Pose2.identity(), 0.0),)
+        return (View(seen, corners, Pose2.identity(), 0.0),)
     last = views[-1]
     way = last.way + math.hypot(motion.x, motion.y)
     kept = tuple(view for view in views if way - view.way <= window)
-    return (*kept, View(seen, last.odom_from_base @ motion, way))
+    return (*kept, View(seen, corners, last.odom_from_base @ motion, way))
+
+
+def corners_in_base(views: tuple[View, ...]) -> Corners:
+    """Gather the corners of all views in the frame of the newest; what was seen often counts often."""
+    base_from_odom = views[-1].odom_from_base.inverse()
+    gathered = views[-1].corners
+    for view in views[:-1]:
+        gathered = gathered.joined(view.corners.moved(base_from_odom @ view.odom_from_base))
+    return gathered
 
 
 def align(

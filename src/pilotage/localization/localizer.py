@@ -6,7 +6,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pilotage.geometry import Array, Pose2
-from pilotage.localization.alignment import AlignmentSettings, View, align, extend_views, trust_in
+from pilotage.localization.alignment import (
+    AlignmentSettings,
+    View,
+    align,
+    corners_in_base,
+    extend_views,
+    trust_in,
+)
 from pilotage.localization.belief import Belief
 from pilotage.localization.estimate import (
     Estimate,
@@ -23,6 +30,7 @@ from pilotage.localization.visibility import VisibilityModel, VisibilitySettings
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry, PerceptionMap, PerceptionSettings, perceive
 from pilotage.perception.perception_map import PerceptionMapSettings
+from pilotage.shape import PartialShape, Simplification, simplify_all
 from pilotage.shape.corners import find_corners
 
 
@@ -34,6 +42,7 @@ class LocalizerSettings:
     perception: PerceptionSettings = field(default_factory=PerceptionSettings)
     perception_map: PerceptionMapSettings = field(default_factory=PerceptionMapSettings)
     registration: RegistrationSettings = field(default_factory=RegistrationSettings)
+    features: Simplification = field(default_factory=lambda: Simplification(min_relevance=0.08))  # [rad·m]
     visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
     alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
     tracking: TrackingSettings = field(default_factory=TrackingSettings)
@@ -93,16 +102,18 @@ class Localizer:
         self.perception_map = self.perception_map.merged(registration)
         motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
         if self._motion is None or self._is_due(motion):
-            self._weigh(scan, motion)
+            self._weigh(scan, shapes, motion)
             motion = Pose2.identity()
         self._motion = motion
         return estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
 
-    def _weigh(self, scan: LaserScan, motion: Pose2) -> None:
+    def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:
         """Carry belief along, weigh it by what is seen now, and hold it against a search of the drawing."""
         settings, rng = self.settings, self._rng
         seen = look(scan, settings.visibility)
-        self._views = extend_views(self._views, motion, seen, settings.alignment.window)
+        features = simplify_all([shape.polyline for shape in shapes], settings.features)
+        corners = find_corners(features)
+        self._views = extend_views(self._views, motion, seen, corners, settings.alignment.window)
         belief = predict(self.belief, motion, self.atlas, self._tracking, rng)
         belief = weigh(belief, seen, self._model, self._tracking, rng)  # 3.4
         fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
@@ -127,8 +138,7 @@ class Localizer:
     def _proposals(self) -> Array:
         """Propose places for an alignment: half where corners agree, half anywhere."""
         count, prior = self.settings.alignment.proposals // 2, self._tracking.prior
-        base_from_odom = self.perception_map.odom_from_base.inverse()
-        seen = find_corners(shape.polyline.moved(base_from_odom) for shape in self.perception_map.shapes)
+        seen = corners_in_base(self._views)
         by_corners = propose_by_corners(seen, self.atlas, prior, count, self._rng)
         return np.hstack([by_corners, propose_anywhere(self.atlas, prior, count, self._rng)])
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array, Polyline, Pose2
 
 MIN_TURN = math.radians(35.0)
 """Flatter bends are tremor of the hand or of the laser."""
@@ -29,6 +29,10 @@ class Corners:
     def reversed(self) -> "Corners":
         """See the same corners from the other side of the line."""
         return Corners(self.vertices, self.directions + math.pi, -self.turns, self.lengths)
+
+    def moved(self, a_from_b: Pose2) -> "Corners":
+        """Carry from frame b to frame a."""
+        return Corners(a_from_b @ self.vertices, self.directions + a_from_b.theta, self.turns, self.lengths)
 
     def joined(self, other: "Corners") -> "Corners":
         """Put two lists together."""

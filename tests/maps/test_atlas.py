@@ -1,0 +1,54 @@
+import math
+
+import numpy as np
+
+from buildings import flat
+from pilotage.geometry import Polyline, Pose2, Similarity2
+from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
+from pilotage.maps import AtlasSettings, RangeTableSettings, SchematicMap, build_atlas
+from pilotage.maps.range_table import build_range_table
+
+
+def test_places_are_inside_and_clear_of_walls():
+    table = build_range_table(flat(), RangeTableSettings(cells=60))
+
+    x, y = table.places.T
+    cut_off = (x > 8) & (y < 3)
+    assert (~cut_off & (x > 0) & (x < 10) & (y > 0) & (y < 7)).all()
+    assert (table.clearances > 0.3 * table.cell_size).all()
+
+
+def test_levels_are_the_logarithms_of_ranges():
+    square = SchematicMap((Polyline.through([(0, 0), (4, 0), (4, 4), (0, 4)], closed=True),))
+    table = build_range_table(square, RangeTableSettings(cells=40, directions=4))
+
+    column, row = 10, 30
+    right = table.log_ranges[column * table.rows + row, 0]
+
+    assert round(math.log((4.0 - 1.05) / table.cell_size) / LOG_STEP + LOG_ZERO) == right
+
+
+def test_where_nothing_is_enclosed_the_robot_can_be_anywhere():
+    table = build_range_table(
+        SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), RangeTableSettings(cells=20)
+    )
+
+    assert table.columns * table.rows == len(table.places)
+
+
+def test_an_atlas_turns_and_grows_with_its_drawing():
+    first = build_atlas(flat(), AtlasSettings())
+    second = build_atlas(flat(5.0, Pose2(9.0, -4.0, math.pi / 2)), AtlasSettings())
+
+    assert len(first.cell_graph.cells) == len(second.cell_graph.cells)
+    assert math.isclose(math.log(5.0), second.log_scale - first.log_scale, abs_tol=0.02)
+    moved = Similarity2(5.0, Pose2(9.0, -4.0, math.pi / 2)) @ first.corners.vertices
+    distances = np.hypot(*(moved[:, None] - second.corners.vertices[None]).transpose(2, 0, 1))
+    assert distances.min(axis=1).max() < 0.5
+
+
+def test_a_drawing_that_encloses_nothing_has_no_cells():
+    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), AtlasSettings())
+
+    assert atlas.cell_graph is None
+    assert "" == atlas.cell_at((1.0, 1.0))
