@@ -12,6 +12,7 @@ from pilotage.io.logs import open_log
 from pilotage.io.tum import read_trajectory
 from pilotage.localization.overlap import OverlapSettings
 from pilotage.localization.registration import Method, RegistrationSettings, register
+from pilotage.localization.registration_settings import SearchSettings
 from pilotage.perception import (
     LaserScan,
     Odometry,
@@ -183,3 +184,22 @@ def test_real_logs_are_followed_even_with_bad_odometry(name):
     errors = motion_errors(follow(readings, spoilt), motions([poses[i] for i in kept]))
 
     assert np.mean((errors.place < 0.2) & (errors.turn < math.radians(3.0))) >= 0.95
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: RegistrationSettings(widths=()),
+        lambda: RegistrationSettings(widths=(0.1, 0.0)),
+        lambda: RegistrationSettings(sample_step=math.nan),
+        lambda: RegistrationSettings(penalty=-1.0),
+        lambda: SearchSettings(count=0),
+        lambda: SearchSettings(turn_step=0.0),
+        lambda: SearchSettings(max_place=math.inf),
+        lambda: OverlapSettings(share=0.0),
+        lambda: OverlapSettings(distance=-0.1),
+    ],
+)
+def test_settings_that_cannot_be_meant_are_refused(wrong):
+    with pytest.raises(ValueError, match="must"):
+        wrong()

@@ -35,6 +35,18 @@ class SearchSettings:
     max_lost_place: float = 5.0  # [m] never search farther: the map ends soon, and odometry may jump by miles
     lost_turn: float = math.radians(60.0)  # [rad]
 
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("points", "count", "stride"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"{name} must be >= 1, got {getattr(self, name)}")
+        for name in ("turn_step", "width"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        for name in ("reach", "max_place", "max_turn", "lost_place", "lost_place_per_meter", "lost_turn"):
+            if not 0.0 <= getattr(self, name) < math.inf:
+                raise ValueError(f"{name} must be finite and >= 0, got {getattr(self, name)}")
+
 
 @dataclass(frozen=True, slots=True)
 class RegistrationSettings:
@@ -54,3 +66,14 @@ class RegistrationSettings:
     penalty: float = 0.03  # share of points that outweighs a unit of log(1 + m^2 / tail)
     learning_rate: float = 0.1  # largest relative change of the deviations of odometry a step
     learning_support: float = 0.25  # with less, registration is no judge of odometry
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("sample_step", "full_incidence", "deviation", "tail"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        for name in ("overhang", "penalty", "learning_rate"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+        if not self.widths or not min(self.widths) > 0.0:
+            raise ValueError(f"widths must hold one width > 0 m at least, got {self.widths}")
