@@ -112,6 +112,18 @@ def test_a_scan_that_shows_nothing_moves_by_odometry():
     assert registration.correspondences == ()
 
 
+@pytest.mark.parametrize("jump", [50.0, 1e6])
+def test_odometry_that_jumps_costs_no_more_than_a_step(jump):
+    perception_map = map_seen_from(START)
+    registration = register(
+        shapes_at(START), perception_map, Odometry(1.0, START @ Pose2(jump, 0.0, 0.0)), SETTINGS
+    )
+    after = perception_map.merged(registration)
+
+    assert registration.last_from_base.x == pytest.approx(jump, rel=0.1)
+    assert len(after.shapes) <= len(registration.shapes)
+
+
 def test_what_is_seen_again_corresponds_and_is_not_entered_twice():
     perception_map = map_seen_from(START)
     motion = Pose2(0.4, 0.0, 0.0)

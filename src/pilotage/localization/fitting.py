@@ -63,7 +63,8 @@ def find_best_fit(
         distance = math.hypot(guess.motion.x, guess.motion.y)
         place, turn = OdometryNoise().deviations(guess.motion)
         guess = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
-        window = (search.lost_place + search.lost_place_per_meter * distance, search.lost_turn)
+        far = search.lost_place + search.lost_place_per_meter * distance
+        window = (min(far, search.lost_max_place), search.lost_turn)
         starts = _search(samples, perception_map, guess, window, settings)
         fits += _refine(samples, perception_map, guess, starts, settings)
 

@@ -11,8 +11,8 @@ from pilotage.localization.shape_registration import ShapeSettings
 class Method(Enum):
     """How the pose is found."""
 
-    SEGMENTS = "points of the scan against segments of the map, from many starts"
-    SHAPES = "the mean of the poses that matches of shapes induce, as in the paper"
+    SEGMENTS = "segments"  # samples of the shapes against segments of the map, from many starts
+    SHAPES = "shapes"  # the mean of the poses that matches of shapes induce, as in the paper
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,7 @@ class SearchSettings:
         2.2  # [m/m] and so much of the motion: a robot may have gone back instead of on
     )
     max_lost_place: float = 5.0  # [m] never search farther: the map ends soon, and odometry may jump by miles
+    lost_max_place: float = 3.0  # [m] but no farther: odometry may have jumped
     lost_turn: float = math.radians(60.0)  # [rad]
 
     def __post_init__(self) -> None:
@@ -43,7 +44,15 @@ class SearchSettings:
         for name in ("turn_step", "width"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-        for name in ("reach", "max_place", "max_turn", "lost_place", "lost_place_per_meter", "lost_turn"):
+        for name in (
+            "reach",
+            "max_place",
+            "max_turn",
+            "lost_place",
+            "lost_place_per_meter",
+            "lost_max_place",
+            "lost_turn",
+        ):
             if not 0.0 <= getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be finite and >= 0, got {getattr(self, name)}")
 
