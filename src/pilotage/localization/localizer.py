@@ -61,8 +61,8 @@ class Localizer:
     """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
 
     Give it a drawing, or an atlas that was built of one before. `start` is a pose in the sketch (y up),
-    `scale` drawing units per metre; without them the robot may be
-    anywhere, at any heading, and the drawing of any scale. Raises ValueError if these cannot be meant.
+    `scale` drawing units per metre; without them the robot may be anywhere, at any heading, and the drawing
+    of any scale. Raises ValueError if these cannot be meant.
     """
 
     def __init__(
