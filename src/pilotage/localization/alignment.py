@@ -40,6 +40,7 @@ class AlignmentSettings:
     log_scale: float = 0.08  # the same
     stretch: float = 0.08  # the same
     wall_penalty: float = 3.0  # log-odds of having walked through a drawn wall between two looks
+    wall_tolerance: float = 0.2  # log of how much longer than the way to the wall the way between may be
     trust: float = 0.1  # share of belief that a fresh alignment replaces when it explains the views as well
 
     def __post_init__(self) -> None:
@@ -135,9 +136,10 @@ def score_views(
     states: Array, views: tuple[View, ...], model: VisibilityModel, settings: AlignmentSettings
 ) -> Array:
     """Sum over views, the newest first, the log-likelihood of states (6, n) of the newest, (n,)."""
-    from pilotage.kernels.visibility import find_blocked
+    from pilotage.kernels.visibility import LOG_STEP, find_blocked
 
     table = model.atlas.range_table
+    tolerance = round(settings.wall_tolerance / LOG_STEP)
     base_from_odom = views[0].odom_from_base.inverse()
     scores = np.zeros(states.shape[1])
     later = states[:2]
@@ -148,7 +150,8 @@ def score_views(
         then[HEADING] += base_from_then.theta
         scores += model.score(then, view.look)
         if view is not views[0]:
-            blocked = find_blocked(then[:2].copy(), later - then[:2], table.log_ranges, table.grid, 7)
+            steps = later - then[:2]
+            blocked = find_blocked(then[:2].copy(), steps, table.log_ranges, table.grid, tolerance)
             scores -= settings.wall_penalty * blocked
         later = then[:2]
     return scores

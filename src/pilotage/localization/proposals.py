@@ -10,9 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array, Pose2
-from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
+from pilotage.localization.belief import HEADING, LOG_SCALE, X, Y, stretched
 from pilotage.maps import Atlas
 from pilotage.shape.corners import Corners
+
+ALIKE = math.radians(30.0)
+"""Corners bend alike if their turns differ by less: right angles are drawn a little off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,14 +70,10 @@ def propose_by_corners(
     alike = np.flatnonzero(np.abs(tried.turns - known.turns) < ALIKE)
     tried, known = tried.chosen(alike), known.chosen(alike)
     states = np.zeros((6, len(alike)))
-    states[2] = known.directions - tried.directions
+    states[HEADING] = known.directions - tried.directions
     states[LOG_SCALE:] = _shapes(atlas, prior, len(alike), rng)
     states[[X, Y]] = known.vertices.T - stretched(states, *tried.vertices.T)
     return states
-
-
-ALIKE = math.radians(30.0)
-"""Corners bend alike if their turns differ by less: right angles are drawn a little off."""
 
 
 def _shapes(atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
