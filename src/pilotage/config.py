@@ -12,6 +12,7 @@ from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from pilotage.errors import FileError, SettingsError
 from pilotage.localization import LocalizerSettings
+from pilotage.navigation import NavigatorSettings
 from pilotage.simulation import RunSettings
 
 Kind = TypeVar("Kind")
@@ -24,6 +25,7 @@ class Settings:
     """Every default is sane: a file needs to name only what it changes."""
 
     localizer: LocalizerSettings = field(default_factory=LocalizerSettings)
+    navigator: NavigatorSettings = field(default_factory=NavigatorSettings)
     simulation: RunSettings = field(default_factory=RunSettings)
 
 

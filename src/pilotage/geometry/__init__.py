@@ -7,6 +7,7 @@ from pilotage.geometry.pose import Pose2
 from pilotage.geometry.similarity import Similarity2
 from pilotage.geometry.span import Span
 from pilotage.geometry.trajectory import Trajectory
+from pilotage.geometry.twist import Twist
 
 __all__ = [
     "Array",
@@ -15,6 +16,7 @@ __all__ = [
     "Similarity2",
     "Span",
     "Trajectory",
+    "Twist",
     "frozen_array",
     "frozen_points",
     "wrap_angle",
