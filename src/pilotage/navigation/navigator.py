@@ -20,7 +20,7 @@ class NavigatorSettings:
 
 
 class Navigator:
-    """Drives to `goal`, a point of the sketch (y up); holds the state of driving, the localizer that of place.
+    """Drives to `goal`, a point of the sketch (y up): the localizer holds the place, this the drive.
 
     Raises RouteError if the goal cannot be gone to at all, NotEnclosedError if the drawing has no cells.
     """

@@ -13,7 +13,7 @@ class Behavior(Enum):
     LOOK_AROUND = "look around"  # turns on the spot: what it sees does not tell where it is
     EXPLORE = "explore"  # drives to where the places held possible would look most different
     CROSS = "cross"  # crosses the cell towards its next gateway, or the goal
-    PASS_THROUGH = "pass through"  # goes through the opening of a gateway
+    GO_THROUGH = "go through"  # goes through the opening of a gateway
     BACK_OUT = "back out"  # leaves a place from which nothing leads on
     WAIT = "wait"  # something moves in the way
     REST = "rest"  # the drive is over
