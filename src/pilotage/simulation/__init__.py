@@ -3,6 +3,7 @@
 from pilotage.simulation.laser import LaserSettings, sense
 from pilotage.simulation.robot import DriveSettings, Moment, OdometrySettings, follow, reckon
 from pilotage.simulation.run import Run, RunSettings, simulate
+from pilotage.simulation.scene import Scene
 from pilotage.simulation.world import World
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "OdometrySettings",
     "Run",
     "RunSettings",
+    "Scene",
     "World",
     "follow",
     "reckon",
