@@ -1,0 +1,68 @@
+"""Write a drive as JSON Lines, one object a step: what was believed and done, and apart from it the truth."""
+
+import json
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pilotage.geometry import Pose2
+from pilotage.io.estimates import estimate_record, rounded
+from pilotage.io.files import replacing
+from pilotage.maps import SchematicMap
+from pilotage.navigation import Step
+from pilotage.simulation import Scene
+
+Record = dict[str, object]
+
+
+def step_record(step: Step, scene: Scene, sketch: SchematicMap) -> Record:
+    """Return a step as a line of the journal holds it.
+
+    The estimate stands as in a file of estimates, in the units and axes of the drawing's file. `cell_belief`
+    says how sure it is in which cell the robot is, `alignment_error` [m] where in it. `target` is in the
+    robot's own frame, ahead and to its left [m]. `truth` is in the frame of the world [m], y up. What is
+    unknown or endless is null.
+    """
+    return {
+        **estimate_record(step.estimate, sketch),
+        "stamp": step.stamp,
+        "behavior": step.behavior.value,
+        "cell_belief": rounded(step.cell_belief),
+        "alignment_error": finite(step.alignment_error),
+        "next_cell": step.next_cell_id,
+        "gateway": step.gateway_id,
+        "target": None if step.target is None else [rounded(value) for value in step.target],
+        "distance": finite(step.distance),
+        "command": {"linear": rounded(step.command.linear), "angular": rounded(step.command.angular)},
+        "closed_gateways": list(step.closed_gateway_ids),
+        "times_lost": step.times_lost,
+        "outcome": None if step.outcome is None else step.outcome.value,
+        "reason": step.reason,
+        "truth": {**pose_record(scene.world_from_base), "collisions": scene.collisions},
+    }
+
+
+def pose_record(pose: Pose2) -> dict[str, float]:
+    """Return a true pose."""
+    return {"x": rounded(pose.x), "y": rounded(pose.y), "heading": rounded(pose.theta)}
+
+
+def finite(value: float) -> float | None:
+    """Round a number; None if it is endless or none at all: JSON has no word for that.
+
+    >>> finite(1.5), finite(math.inf)
+    (1.5, None)
+    """
+    return rounded(value) if math.isfinite(value) else None
+
+
+@contextmanager
+def journal_file(path: Path | str, sketch: SchematicMap) -> Iterator[Callable[[Step, Scene], None]]:
+    """Open a journal; it appears whole when the block ends, and not at all if the block fails."""
+    with replacing(path) as beside, beside.open("w", encoding="utf-8") as file:
+
+        def write(step: Step, scene: Scene) -> None:
+            file.write(json.dumps(step_record(step, scene, sketch), allow_nan=False) + "\n")
+
+        yield write
