@@ -23,6 +23,7 @@ from pilotage.localization.estimate import (
     find_places,
     steady_confidence,
 )
+from pilotage.localization.placement import Placement, place_at
 from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
 from pilotage.localization.registration import RegistrationSettings, register
 from pilotage.localization.tracking import TrackingSettings, predict, weigh
@@ -92,6 +93,7 @@ class Localizer:
         self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
         self._views: tuple[View, ...] = ()
         self._places: tuple[Hypothesis, ...] = ()
+        self._placement: Placement | None = None
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
@@ -106,6 +108,22 @@ class Localizer:
             motion = Pose2.identity()
         self._motion = motion
         return estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
+
+    @property
+    def placement(self) -> Placement:
+        """Where in its surroundings the robot stands at the most probable place; after the first update."""
+        if self._placement is None or self._motion is None:
+            raise ValueError("a placement needs at least one scan, got none")
+        return self._placement.moved(self._motion)
+
+    def belief_in(self, cell_id: str) -> float:
+        """Return the probability that the robot is in this cell, wherever in it."""
+        graph = self.atlas.cell_graph
+        if graph is None:
+            return 0.0
+        lines = self.atlas.range_table.lines_at(self.belief.states[:2].T)
+        inside = self.atlas.cell_indices[lines] == graph.index_from_id[cell_id]
+        return float(self.belief.weights[inside].sum())
 
     def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:
         """Carry belief along, weigh it by what is seen now, and hold it against a search of the drawing."""
@@ -122,6 +140,8 @@ class Localizer:
         self.belief = belief.mixed(fresh, share, rng)
         carried = self._moved_places(motion)
         self._places = find_places(self.belief, self.atlas, settings.estimate)
+        at = self._places[0].sketch_from_base.pose
+        self._placement = place_at(self.belief, (at.x, at.y), settings.estimate.jump)
         if carried:
             way = math.hypot(motion.x, motion.y)
             self._confidence = steady_confidence(

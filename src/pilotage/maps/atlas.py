@@ -2,8 +2,10 @@
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pilotage.geometry import Polyline
 from pilotage.maps.cells import CellGraph
@@ -42,6 +44,14 @@ class Atlas:
     cell_graph: CellGraph | None  # None if the drawing encloses nothing
     corners: Corners  # as seen from free space
     log_scale: float  # [log drawing units per metre] a first guess, good to a factor of about 1.5
+
+    @cached_property
+    def cell_indices(self) -> NDArray[np.int64]:
+        """Which cell of the graph each place of the range table's grid lies in, or is nearest to, (k,)."""
+        table = self.range_table
+        if self.cell_graph is None:
+            return np.zeros(table.columns * table.rows, dtype=np.int64)
+        return self.cell_graph.cell_indices_at(table.middles)
 
     def cell_at(self, point: tuple[float, float]) -> str:
         """Name the cell that a point lies in, else the nearest; empty if the drawing has none."""

@@ -50,6 +50,17 @@ class RangeTable:
         """Left, bottom, cell size, columns and rows, as the kernels take them."""
         return (*self.corner, self.cell_size, self.columns, self.rows)
 
+    @property
+    def middles(self) -> Array:
+        """The middle of each grid cell, (columns * rows, 2) [drawing units]."""
+        return middles_of(self.corner, self.cell_size, self.columns, self.rows)
+
+    def lines_at(self, points: Array) -> NDArray[np.int64]:
+        """Find the line of the table for each point (n, 2), (n,); off the grid that of its rim."""
+        places = np.floor((points - self.corner) / self.cell_size).astype(np.int64)
+        columns, rows = np.clip(places, 0, (self.columns - 1, self.rows - 1)).T
+        return np.asarray(columns * self.rows + rows)
+
     @cached_property
     def stretch_tables(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
         """Where each stretch turns each direction, and by what it lengthens it."""
@@ -70,8 +81,7 @@ def build_range_table(sketch: SchematicMap, settings: RangeTableSettings) -> Ran
     left, bottom, right, top = sketch.bounds
     cell = max(right - left, top - bottom) / settings.cells
     columns, rows = (int(np.ceil(extent / cell)) + 1 for extent in (right - left, top - bottom))
-    xs, ys = (start + (np.arange(count) + 0.5) * cell for start, count in ((left, columns), (bottom, rows)))
-    middles = np.stack(np.meshgrid(xs, ys, indexing="ij"), axis=-1).reshape(-1, 2)
+    middles = middles_of((left, bottom), cell, columns, rows)
     farthest = 1.5 * sketch.diagonal
     ranges = sweep(middles, sketch.segments, settings.directions, farthest)
     levels = np.log(np.maximum(ranges / cell, np.finfo(np.float32).tiny)) / LOG_STEP + LOG_ZERO
@@ -89,3 +99,11 @@ def build_range_table(sketch: SchematicMap, settings: RangeTableSettings) -> Ran
         middles[free],
         clearances[free],
     )
+
+
+def middles_of(corner: tuple[float, float], cell: float, columns: int, rows: int) -> Array:
+    """List the middles of the cells of a grid, column by column, (columns * rows, 2)."""
+    xs, ys = (
+        start + (np.arange(count) + 0.5) * cell for start, count in zip(corner, (columns, rows), strict=True)
+    )
+    return np.asarray(np.stack(np.meshgrid(xs, ys, indexing="ij"), axis=-1).reshape(-1, 2))
