@@ -94,11 +94,11 @@ def test_what_cannot_be_meant_is_refused_by_its_full_name(tree, message):
 
 
 def test_settings_of_a_stage_are_changed_and_no_others():
-    settings = settings_from({"simulation": {"laser": {"beams": 361}, "scan_every": 1}})
+    settings = settings_from({"simulator": {"laser": {"beams": 361}, "time_step": 1}})
 
-    assert 361 == settings.simulation.laser.beams
-    assert 1.0 == settings.simulation.scan_every
-    assert Settings().simulation.drive == settings.simulation.drive
+    assert 361 == settings.simulator.laser.beams
+    assert 1.0 == settings.simulator.time_step
+    assert Settings().simulator.body == settings.simulator.body
 
 
 @pytest.mark.parametrize(
@@ -107,9 +107,9 @@ def test_settings_of_a_stage_are_changed_and_no_others():
         ("a = [", FileError, "must be TOML"),
         ("nonsense = 1", SettingsError, "unknown setting nonsense"),
         (
-            "[simulation.laser]\nbeams = 1",
+            "[simulator.laser]\nbeams = 1",
             SettingsError,
-            "setting simulation.laser: beams must be at least 2",
+            "setting simulator.laser: beams must be at least 2",
         ),
     ],
 )
@@ -144,7 +144,7 @@ def all_settings(kind):
     "settings",
     [
         Settings(),
-        settings_from({"simulation": {"laser": {"base_from_laser": {"x": 0.2, "y": 0, "theta": 1}}}}),
+        settings_from({"simulator": {"laser": {"base_from_laser": {"x": 0.2, "y": 0, "theta": 1}}}}),
     ],
 )
 def test_settings_that_are_written_out_are_read_back(tmp_path, settings):

@@ -13,7 +13,7 @@ from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 from pilotage.errors import FileError, SettingsError
 from pilotage.localization import LocalizerSettings
 from pilotage.navigation import NavigatorSettings
-from pilotage.simulation import RunSettings
+from pilotage.simulation import SimulatorSettings
 
 Kind = TypeVar("Kind")
 
@@ -26,7 +26,7 @@ class Settings:
 
     localizer: LocalizerSettings = field(default_factory=LocalizerSettings)
     navigator: NavigatorSettings = field(default_factory=NavigatorSettings)
-    simulation: RunSettings = field(default_factory=RunSettings)
+    simulator: SimulatorSettings = field(default_factory=SimulatorSettings)
 
 
 def read_settings(path: Path | str) -> Settings:

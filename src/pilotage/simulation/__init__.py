@@ -1,19 +1,33 @@
 """True walls, noisy beams, drifting odometry."""
 
+from pilotage.simulation.body import BodySettings
+from pilotage.simulation.doors import Door
 from pilotage.simulation.laser import LaserSettings, sense
-from pilotage.simulation.robot import DriveSettings, Moment, OdometrySettings, follow, reckon
+from pilotage.simulation.movers import Movers
+from pilotage.simulation.odometry import OdometrySettings, Wheels
+from pilotage.simulation.people import Person
+from pilotage.simulation.robot import DriveSettings, Moment, follow, reckon
 from pilotage.simulation.run import Run, RunSettings, simulate
 from pilotage.simulation.scene import Scene
+from pilotage.simulation.simulator import Simulator, SimulatorSettings, StartError
 from pilotage.simulation.world import World
 
 __all__ = [
+    "BodySettings",
+    "Door",
     "DriveSettings",
     "LaserSettings",
     "Moment",
+    "Movers",
     "OdometrySettings",
+    "Person",
     "Run",
     "RunSettings",
     "Scene",
+    "Simulator",
+    "SimulatorSettings",
+    "StartError",
+    "Wheels",
     "World",
     "follow",
     "reckon",

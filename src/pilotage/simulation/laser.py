@@ -1,4 +1,4 @@
-"""A 2-D laser scanner: beams with noise, dropouts and a limited reach."""
+"""A 2-D laser scanner: beams with noise, dropouts and a limited reach, blind to most glass."""
 
 import math
 from dataclasses import dataclass, field
@@ -7,6 +7,7 @@ import numpy as np
 
 from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan
+from pilotage.simulation.movers import NOBODY, Movers
 from pilotage.simulation.world import World
 
 
@@ -19,6 +20,8 @@ class LaserSettings:
     range_max: float = 30.0  # [m]
     noise: float = 0.015  # [m] standard deviation of a range
     dropout: float = 0.005  # share of beams that do not return
+    glass_angle: float = math.radians(8.0)  # [rad] off its normal up to which glass throws a beam back
+    glass_return: float = 0.05  # share of other beams that dust on the glass throws back
     base_from_laser: Pose2 = field(default_factory=Pose2.identity)
 
     def __post_init__(self) -> None:
@@ -31,20 +34,37 @@ class LaserSettings:
             raise ValueError(f"range_max must be > 0 m, got {self.range_max}")
         if not self.noise >= 0.0:
             raise ValueError(f"noise must be >= 0 m, got {self.noise}")
-        if not 0.0 <= self.dropout <= 1.0:
-            raise ValueError(f"dropout must be in [0, 1], got {self.dropout}")
+        if not 0.0 <= self.glass_angle <= math.pi / 2.0:
+            raise ValueError(f"glass_angle must be in [0, pi / 2] rad, got {self.glass_angle}")
+        for name in ("dropout", "glass_return"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name} must be in [0, 1], got {getattr(self, name)}")
 
 
 def sense(
-    world: World, world_from_base: Pose2, stamp: float, rng: np.random.Generator, settings: LaserSettings
+    world: World,
+    world_from_base: Pose2,
+    stamp: float,
+    rng: np.random.Generator,
+    settings: LaserSettings,
+    *,
+    movers: Movers = NOBODY,
 ) -> LaserScan:
     """Take one scan from where the robot stands."""
+    from pilotage.kernels.raycast import cast, cast_on_discs, cast_on_panes
+
     angle_min = -settings.field_of_view / 2.0
     increment = settings.field_of_view / (settings.beams - 1)
     world_from_laser = world_from_base @ settings.base_from_laser
     directions = world_from_laser.theta + angle_min + increment * np.arange(settings.beams, dtype=np.float64)
     origins = np.tile(world_from_laser.position, (settings.beams, 1))
     ranges = world.ranges(origins, directions)
+    if len(world.glass) > 0:
+        dusty = rng.random(settings.beams) < settings.glass_return
+        steepest = np.where(dusty, math.pi / 2.0, settings.glass_angle)
+        ranges = np.minimum(ranges, cast_on_panes(origins, directions, world.glass, steepest))
+    ranges = np.minimum(ranges, cast(origins, directions, movers.closed_doors))
+    ranges = np.minimum(ranges, cast_on_discs(origins, directions, movers.people))
     ranges = np.maximum(ranges + rng.normal(0.0, settings.noise, settings.beams), 0.0)
     ranges[rng.random(settings.beams) < settings.dropout] = np.inf
     return LaserScan(

@@ -1,4 +1,4 @@
-"""A differential drive that follows a path, and the odometry that its slipping wheels report."""
+"""A robot that follows a path, and the odometry that its slipping wheels report."""
 
 import math
 from collections.abc import Iterator
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pilotage.geometry import Array, Pose2, frozen_points, wrap_angle
+from pilotage.simulation.odometry import OdometrySettings, Wheels
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,24 +27,6 @@ class DriveSettings:
         for name in ("speed", "turn_rate", "look_ahead", "pivot", "time_step"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-
-
-@dataclass(frozen=True, slots=True)
-class OdometrySettings:
-    """How the wheels slip; as it stands, like the raw odometry of robots of the nineties."""
-
-    slip: float = 0.07  # standard deviation of the error of a way driven, as a share of it
-    drift: float = math.radians(2.5)  # [rad/m] standard deviation of the error of the heading
-    turn_slip: float = 0.05  # standard deviation of the error of a turn, as a share of it
-    persistence: float = 2.0  # [m] over which an error lasts
-
-    def __post_init__(self) -> None:
-        """Refuse negative errors."""
-        for name in ("slip", "drift", "turn_slip"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
-        if not self.persistence > 0.0:
-            raise ValueError(f"persistence must be > 0 m, got {self.persistence}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,24 +73,10 @@ def steered(pose: Pose2, target: Array, settings: DriveSettings) -> Pose2:
 
 
 def reckon(world_from_base: list[Pose2], rng: np.random.Generator, settings: OdometrySettings) -> list[Pose2]:
-    """Report each pose as slipping wheels would: `odom_from_base`, beginning at the origin.
-
-    Errors are proportional to the way and to the turn, and last for a while: a wheel that slips on one floor
-    goes on slipping there.
-    """
-    moves = [a.inverse() @ b for a, b in pairwise(world_from_base)]
-    ways = np.array([math.hypot(move.x, move.y) for move in moves])
-    station = np.cumsum(ways)
-    knots = np.arange(
-        0.0, (station[-1] if len(station) else 0.0) + 2.0 * settings.persistence, settings.persistence
-    )
-    slip, drift, turn_slip = (
-        np.interp(station, knots, rng.normal(0.0, deviation, len(knots)))
-        for deviation in (settings.slip, settings.drift, settings.turn_slip)
-    )
-    reported = [Pose2.identity()]
-    for k, move in enumerate(moves):
-        gain = 1.0 + slip[k]
-        turn = move.theta * (1.0 + turn_slip[k]) + drift[k] * ways[k]
-        reported.append(reported[-1] @ Pose2(gain * move.x, gain * move.y, turn))
+    """Report each pose as slipping wheels would: `odom_from_base`, beginning at the origin."""
+    wheels = Wheels(rng, settings)
+    reported = [wheels.odom_from_base]
+    for a, b in pairwise(world_from_base):
+        wheels.roll(a.inverse() @ b)
+        reported.append(wheels.odom_from_base)
     return reported

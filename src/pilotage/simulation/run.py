@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from pilotage.geometry import Pose2
 from pilotage.perception import Odometry, Reading
 from pilotage.simulation.laser import LaserSettings, sense
-from pilotage.simulation.robot import DriveSettings, Moment, OdometrySettings, follow, reckon
+from pilotage.simulation.odometry import OdometrySettings
+from pilotage.simulation.robot import DriveSettings, Moment, follow, reckon
 from pilotage.simulation.world import World
 
 

@@ -1,51 +1,112 @@
-"""The true building: walls and things as a laser meets them."""
+"""The true building: walls and things as a laser and a robot's body meet them."""
 
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from pilotage.geometry import Array, frozen_array
+from pilotage.geometry import Array, Pose2, frozen_array, frozen_points
 from pilotage.maps import SchematicMap
+from pilotage.simulation.doors import Door
+from pilotage.simulation.people import Person
+
+if TYPE_CHECKING:
+    from pilotage.kernels.segment_grid import SegmentGrid
+
+FAR = 1e9
+"""Farther than anything stands [m]."""
+
+
+def no_segments() -> Array:
+    """Return an empty list of segments."""
+    return np.empty((0, 4))
 
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """Opaque segments, rows x1, y1, x2, y2, (n, 4) [m], y up."""
+    """What stands in the building, rows x1, y1, x2, y2, (n, 4) [m], y up; and what moves in it.
 
-    segments: Array
+    Free space is where the robot's disc touches nothing. If the segments are contours, they part free space
+    from what is solid, and so the inside of a wall is not free, however thick it is.
+    """
+
+    segments: Array  # opaque
+    glass: Array = field(default_factory=no_segments)  # solid, and seen by few beams
+    doors: tuple[Door, ...] = ()
+    people: tuple[Person, ...] = ()
+    start: Pose2 | None = None  # where a drive begins if nothing else is said
+    contours: bool = False
 
     def __post_init__(self) -> None:
         """Copy and freeze the segments; refuse another shape and what is not finite."""
-        segments = frozen_array(self.segments)
-        if segments.ndim != 2 or segments.shape[1] != 4:
-            raise ValueError(f"segments must have shape (n, 4), got {segments.shape}")
-        if not np.isfinite(segments).all():
-            raise ValueError("segments must be finite, got some that are not")
-        object.__setattr__(self, "segments", segments)
+        for name in ("segments", "glass"):
+            segments = frozen_array(getattr(self, name))
+            if segments.ndim != 2 or segments.shape[1] != 4:
+                raise ValueError(f"{name} must have shape (n, 4), got {segments.shape}")
+            if not np.isfinite(segments).all():
+                raise ValueError(f"{name} must be finite, got some that are not")
+            object.__setattr__(self, name, segments)
 
     @classmethod
     def of(cls, plan: SchematicMap) -> Self:
         """Take every stroke of a plan drawn to scale, its unit the metre, for a wall."""
         return cls(plan.segments)
 
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right and top of all that stands [m]."""
+        points = self.solid.reshape(-1, 2)
+        (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
+        return float(left), float(bottom), float(right), float(top)
+
+    @cached_property
+    def solid(self) -> Array:
+        """All that always stops a robot: walls, glass, doors that never open, (n, 4) [m]."""
+        locked = [door.segment for door in self.doors if door.never_opens]
+        return np.vstack([self.segments, self.glass, *(segment[np.newaxis] for segment in locked)])
+
+    @cached_property
+    def opaque_grid(self) -> "SegmentGrid":
+        """What stops beams, ready for look-up."""
+        from pilotage.kernels.segment_grid import build_grid
+
+        return build_grid(np.array(self.segments))
+
+    @cached_property
+    def solid_grid(self) -> "SegmentGrid":
+        """What stops a robot, ready for look-up."""
+        from pilotage.kernels.segment_grid import build_grid
+
+        return build_grid(np.array(self.solid))
+
     def ranges(self, origins: Array, directions: Array) -> Array:
-        """Measure from origins (n, 2) [m] along directions (n,) [rad] to a wall, (n,) [m]; inf if none."""
-        from pilotage.kernels.raycast import cast
+        """Measure from origins (n, 2) [m] along directions (n,) [rad] to a wall, (n,) [m]; inf if none.
+
+        Glass, doors and people are not met.
+        """
+        from pilotage.kernels.raycast import cast_through
 
         return np.asarray(
-            cast(
+            cast_through(
                 np.ascontiguousarray(origins, dtype=np.float64),
                 np.ascontiguousarray(directions, dtype=np.float64),
-                self.segments,
+                self.opaque_grid,
             )
         )
 
-    def clearance(self, points: Array) -> Array:
-        """Measure from each point (n, 2) [m] to the nearest wall, (n,) [m]."""
-        start, along = self.segments[:, :2], self.segments[:, 2:] - self.segments[:, :2]
-        squared = np.maximum(np.sum(along**2, axis=1), np.finfo(np.float64).tiny)
-        offset = points[:, np.newaxis, :] - start
-        share = np.clip(np.sum(offset * along, axis=2) / squared, 0.0, 1.0)
-        gap = offset - share[:, :, np.newaxis] * along
-        return np.asarray(np.hypot(gap[..., 0], gap[..., 1]).min(axis=1))
+    def clearance(self, points: ArrayLike, within: float = FAR) -> Array:
+        """Measure from each point (n, 2) [m] to the nearest thing that always stands, (n,) [m].
+
+        The search ends `within` so many metres, and that is the answer if there is nothing.
+        """
+        from pilotage.kernels.contact import clearances
+
+        return np.asarray(
+            clearances(frozen_points(points, name="points", at_least=0), self.solid_grid, within)
+        )
+
+    def is_free(self, points: ArrayLike, radius: float) -> NDArray[np.bool_]:
+        """Tell at which points (n, 2) [m] a disc of this radius [m] touches nothing that always stands."""
+        return self.clearance(points, radius) >= radius

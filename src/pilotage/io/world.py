@@ -1,0 +1,90 @@
+"""Read a world to drive in: a ROS map_server map, or an SVG drawing in metres.
+
+Here, and only here, the resolution and the origin of a map_server map are believed.
+"""
+
+import math
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from pilotage.errors import FileError
+from pilotage.geometry import Array, Pose2
+from pilotage.io.raster import Mask, read_entries, read_picture
+from pilotage.io.svg import read_svg
+from pilotage.simulation import World
+
+FREE_BELOW = 0.196
+"""Occupancy below which map_server takes a cell for free, if the file does not say."""
+
+
+def open_world(path: str | os.PathLike[str]) -> World:
+    """Read a world: a ROS map_server YAML file, or SVG (also gzipped) whose unit is the metre.
+
+    Raises FileError if the file is missing, of another kind, or has no free space.
+    """
+    file = Path(path)
+    if file.suffix.lower() in (".yaml", ".yml"):
+        return read_map_server_world(file)
+    return World.of(read_svg(file))
+
+
+def read_map_server_world(path: Path) -> World:
+    """Read a map_server map as a world: occupied and unknown cells are solid, and so is all around it."""
+    entries = read_entries(path)
+    if "image" not in entries:
+        raise FileError("a map_server file must name an image", path)
+    resolution = number(entries, "resolution", path)
+    if not 0.0 < resolution < math.inf:
+        raise FileError(f"a map_server file must give a resolution > 0 m, got {resolution}", path)
+    world_from_map = origin(entries, path)
+    gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
+    occupied = gray if number(entries, "negate", path, 0.0) else 1.0 - gray
+    free = occupied < number(entries, "free_thresh", path, FREE_BELOW)
+    if not free.any():
+        raise FileError("a world must have free space, found no free cell", path)
+    segments = borders(free[::-1]) * resolution  # rows of a map count from its lower edge
+    ends = world_from_map @ segments.reshape(-1, 2)
+    return World(ends.reshape(-1, 4), contours=True)
+
+
+def number(entries: dict[str, str], name: str, path: Path, otherwise: float | None = None) -> float:
+    """Read an entry that must be a number."""
+    if name not in entries and otherwise is not None:
+        return otherwise
+    try:
+        return float(entries.get(name, ""))
+    except ValueError as error:
+        raise FileError(
+            f"a map_server file must give {name} as a number, got {entries.get(name)!r}", path
+        ) from error
+
+
+def origin(entries: dict[str, str], path: Path) -> Pose2:
+    """Read the pose of the lower left corner of a map."""
+    try:
+        x, y, yaw = (float(value) for value in re.split(r"[\s,]+", entries.get("origin", "").strip("[] \t")))
+        return Pose2(x, y, yaw)
+    except ValueError as error:
+        raise FileError(
+            f"a map_server file must give origin as [x, y, yaw], got {entries.get('origin')!r}", path
+        ) from error
+
+
+def borders(free: Mask) -> Array:
+    """Draw the borders between free cells and all others, (n, 4) in cells; runs in a row are one segment."""
+    padded = np.pad(free, 1)
+    level = [(x1, y, x2, y) for y, x1, x2 in runs(padded[1:, 1:-1] != padded[:-1, 1:-1])]
+    upright = [(x, y1, x, y2) for x, y1, y2 in runs((padded[1:-1, 1:] != padded[1:-1, :-1]).T)]
+    return np.array(level + upright, dtype=np.float64)
+
+
+def runs(marked: Mask) -> Iterator[tuple[int, int, int]]:
+    """List the runs of marks in each line: its number, the first mark and the one after the last."""
+    changes = np.diff(np.pad(marked, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+    lines, first = np.nonzero(changes == 1)
+    _, last = np.nonzero(changes == -1)
+    yield from zip(lines.tolist(), first.tolist(), last.tolist(), strict=True)

@@ -1,0 +1,161 @@
+"""A robot in a world, moved by commands: what it reads, and what is true."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from pilotage.errors import PilotageError
+from pilotage.geometry import Array, Pose2, Twist
+from pilotage.perception import Odometry, Reading
+from pilotage.simulation.body import BodySettings, rolled
+from pilotage.simulation.laser import LaserSettings, sense
+from pilotage.simulation.movers import NOBODY
+from pilotage.simulation.odometry import OdometrySettings, Wheels
+from pilotage.simulation.scene import Scene
+from pilotage.simulation.world import World
+
+SKIN = 1e-6
+"""The robot stops this far from what it touches [m], so that no rounding puts it inside."""
+
+APART = 0.01
+"""A contact is over once the robot is this far from all things [m]; the next one counts anew."""
+
+
+class StartError(PilotageError, ValueError):
+    """A robot cannot stand where it is to start."""
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatorSettings:
+    """The robot, its laser, its wheels, and how often it gets a command."""
+
+    body: BodySettings = field(default_factory=BodySettings)
+    laser: LaserSettings = field(default_factory=LaserSettings)
+    odometry: OdometrySettings = field(default_factory=OdometrySettings)
+    time_step: float = 0.1  # [s]
+
+    def __post_init__(self) -> None:
+        """Refuse time that does not pass."""
+        if not self.time_step > 0.0:
+            raise ValueError(f"time_step must be > 0 s, got {self.time_step}")
+
+
+class Simulator:
+    """Moves a robot through a world, one command a time step; equal seeds and commands give equal drives.
+
+    Raises StartError if the robot would stand in a wall.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        start: Pose2,
+        rng: np.random.Generator,
+        settings: SimulatorSettings = SimulatorSettings(),
+    ) -> None:
+        if not world.is_free([start.position], settings.body.radius)[0]:
+            raise StartError(
+                f"a start must leave {settings.body.radius} m around it free,"
+                f" got ({start.x:.2f}, {start.y:.2f}), which is in or at a wall"
+            )
+        self.world = world
+        self.settings = settings
+        self.world_from_base = start
+        self.twist = Twist(0.0, 0.0)  # how the robot moves now
+        self.collisions = 0  # contacts so far, each counted once
+        self._steps = 0
+        self._touching = False
+        self._reading: Reading | None = None
+        self._movers = NOBODY
+        self._laser_rng, wheels_rng = rng.spawn(2)
+        self._wheels = Wheels(wheels_rng, settings.odometry)
+
+    @property
+    def stamp(self) -> float:
+        """The time since the start [s]."""
+        return self._steps * self.settings.time_step
+
+    @property
+    def people(self) -> Array:
+        """Where people stand now, (k, 2) [m]."""
+        return self._movers.people[:, :2]
+
+    @property
+    def closed_doors(self) -> Array:
+        """The doors that are closed now, (m, 4) [m]."""
+        return self._movers.closed_doors
+
+    @property
+    def scene(self) -> Scene:
+        """All that a spectator sees now."""
+        return Scene(self.world_from_base, self.read().scan, self.people, self.closed_doors, self.collisions)
+
+    def step(self, command: Twist) -> None:
+        """Obey a command for one time step."""
+        if not (math.isfinite(command.linear) and math.isfinite(command.angular)):
+            raise ValueError(f"a command must be finite, got {command}")
+        self.twist = self.settings.body.obeyed(self.twist, command, self.settings.time_step)
+        self._move()
+        self._steps += 1
+        self._reading = None
+
+    def read(self) -> Reading:
+        """Read the laser and the wheels; the same reading until the next step."""
+        if self._reading is None:
+            scan = sense(
+                self.world,
+                self.world_from_base,
+                self.stamp,
+                self._laser_rng,
+                self.settings.laser,
+                movers=self._movers,
+            )
+            self._reading = Reading(scan, Odometry(self.stamp, self._wheels.odom_from_base))
+        return self._reading
+
+    def _move(self) -> None:
+        """Drive on as far as nothing is in the way; where something is, stop at the point of contact."""
+        wanted = rolled(self.twist, self.settings.time_step)
+        share = self._share_before_contact(wanted)
+        move = Pose2(share * wanted.x, share * wanted.y, wanted.theta)
+        self.world_from_base = self.world_from_base @ move
+        self._wheels.roll(move)
+        if share < 1.0:
+            self.twist = Twist(0.0, self.twist.angular)
+            self.collisions += not self._touching
+            self._touching = True
+        elif self._touching:
+            self._touching = self._room() < APART
+
+    def _share_before_contact(self, move: Pose2) -> float:
+        """Return what share of a motion in the robot's frame it can make before it touches anything."""
+        from pilotage.kernels.contact import share_before_all
+
+        if move.x == 0.0 and move.y == 0.0:
+            return 1.0
+        here = self.world_from_base
+        step = (here @ move).position - here.position
+        share = share_before_all(
+            here.x,
+            here.y,
+            step[0],
+            step[1],
+            self.settings.body.radius + SKIN,
+            self.world.solid_grid,
+            self.closed_doors,
+            self._movers.people,
+        )
+        return float(share)
+
+    def _room(self) -> float:
+        """Measure from the robot's body to the nearest thing, up to a little over APART [m]."""
+        from pilotage.kernels.contact import clearances
+        from pilotage.kernels.segment_grid import build_grid
+
+        reach = self.settings.body.radius + 2.0 * APART
+        where = self.world_from_base.position[np.newaxis]
+        walls = float(clearances(where, self.world.solid_grid, reach)[0])
+        doors = float(clearances(where, build_grid(np.array(self.closed_doors)), reach)[0])
+        people = np.hypot(*(self.people - where).T) - self._movers.people[:, 2]
+        return min(walls, doors, float(people.min(initial=reach))) - self.settings.body.radius
