@@ -35,8 +35,8 @@ def mark(
         last_i, last_j = -1, -1
         steps = int((ranges[k] - 0.7) * 2.0)
         for step in range(max(steps, 0)):
-            i = int(math.floor(origin[0] + 0.5 * step * cosine))
-            j = int(math.floor(origin[1] + 0.5 * step * sine))
+            i = math.floor(origin[0] + 0.5 * step * cosine)
+            j = math.floor(origin[1] + 0.5 * step * sine)
             if not (0 <= i < width and 0 <= j < height):
                 break
             if i == last_i and j == last_j:
@@ -48,8 +48,8 @@ def mark(
                 evidence[i, j] = -1
     for k in range(len(ranges)):
         if returned[k]:
-            i = int(math.floor(origin[0] + ranges[k] * math.cos(directions[k])))
-            j = int(math.floor(origin[1] + ranges[k] * math.sin(directions[k])))
+            i = math.floor(origin[0] + ranges[k] * math.cos(directions[k]))
+            j = math.floor(origin[1] + ranges[k] * math.sin(directions[k]))
             if 0 <= i < width and 0 <= j < height:
                 evidence[i, j] = min(max(evidence[i, j], 0) + HIT, MOST)
 

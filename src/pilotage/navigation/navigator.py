@@ -1,13 +1,18 @@
-"""Scan in, command out: drives a robot to a goal that is marked on a drawing."""
+"""Scan in, command out: drives a robot to a goal that is marked on a drawing (Wolter 2001, section 4.2)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from pilotage.geometry import Twist
-from pilotage.localization import Localizer
+from pilotage.geometry import Array, Pose2, Twist
+from pilotage.localization import Estimate, Localizer, Status
+from pilotage.maps import NotEnclosedError, RouteError, RouteSettings, check_place
+from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
+from pilotage.navigation.guidance import Leg, lead
+from pilotage.navigation.steering import STILL, SteeringSettings, steer
 from pilotage.navigation.step import Behavior, Outcome, Step
+from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
 from pilotage.perception import LaserScan, Odometry
 
 
@@ -17,6 +22,39 @@ class NavigatorSettings:
 
     radius: float = 0.2  # [m] of the robot's footprint, a disc about its base
     time_limit: float = 1800.0  # [s] after which the robot gives up
+    surroundings: SurroundingsSettings = field(default_factory=SurroundingsSettings)
+    steering: SteeringSettings = field(default_factory=SteeringSettings)
+    exploring: ExploringSettings = field(default_factory=ExploringSettings)
+    route: RouteSettings = field(default_factory=RouteSettings)
+    perceive_every: float = 0.15  # [m] of way between two scans that the localizer is given
+    perceive_turn: float = math.radians(8.0)  # [rad] the same
+    plan_every: float = 0.3  # [s]
+    act_on: float = 0.3  # probability of a place from which on the robot goes by it
+    arrived: float = 0.35  # [m] to the goal
+    beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
+    patience: float = 6.0  # [s] without coming nearer before something else is tried
+    closed_for: float = 120.0  # [s] for which a gateway that was found closed is not tried again
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("radius", "time_limit", "plan_every", "arrived", "patience"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Where to go now: a way over what was seen free."""
+
+    behavior: Behavior
+    way: Array  # (k, 2) in odom [m]
+    leg: Leg | None = None
+    gap: float = 0.0  # [m] from the end of the way to the point that the drawing names
+
+    @property
+    def target(self) -> Array:
+        """The end of the way, (2,) in odom [m]."""
+        return np.asarray(self.way[-1])
 
 
 class Navigator:
@@ -31,19 +69,203 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.localizer = localizer
         self.goal = goal
-        self._began: float | None = None
+        if localizer.atlas.cell_graph is None:
+            raise NotEnclosedError("a drawing to drive by must enclose free space, this one has no cells")
+        self.graph = localizer.atlas.cell_graph
+        check_place(self.graph, goal, "goal")
+        self.surroundings = Surroundings.unseen(self.settings.surroundings)
+        self.trail = np.zeros((1, 2))  # where the robot was, in odom [m]
+        self._perceived: Odometry | None = None
+        self._estimate: Estimate | None = None
+        self._began = 0.0
+        self._plan: Plan | None = None
+        self._planned = -math.inf
+        self._turn_left = math.tau  # [rad] still to be turned while looking around
+        self._heading = 0.0
+        self._closed: dict[str, float] = {}  # gateways found closed, and when
+        self._nearest = math.inf  # [m] that the robot came to the point it heads for
+        self._nearer_at = 0.0  # [s] when it did
+        self._tried = 0  # how often something else was tried without coming nearer
+        self._explore_until = -math.inf
+        self._times_lost = 0
+        self._outcome: Outcome | None = None
+        self._reason = ""
 
     def step(self, scan: LaserScan, odometry: Odometry) -> Step:
         """Take one scan in, give one command out."""
-        estimate = self.localizer.update(scan, odometry)
-        self._began = scan.stamp if self._began is None else self._began
-        if scan.stamp - self._began >= self.settings.time_limit:
-            reason = f"the goal was not reached within {self.settings.time_limit:.0f} s"
-            return Step(
-                scan.stamp, Twist(0.0, 0.0), Behavior.REST, estimate, outcome=Outcome.GAVE_UP, reason=reason
-            )
-        points = scan.points_in_base
-        ahead = points[(np.abs(points[:, 1]) < self.settings.radius + 0.1) & (points[:, 0] > 0.0)]
-        free = float(ahead[:, 0].min(initial=math.inf)) - self.settings.radius
-        command = Twist(0.5, 0.0) if free > 0.6 else Twist(0.0, 0.6)
-        return Step(scan.stamp, command, Behavior.EXPLORE, estimate)
+        estimate = self._localize(scan, odometry)
+        odom_from_base = self._odom_from_base(odometry)
+        self.surroundings = self.surroundings.seen(scan, odom_from_base)
+        if np.hypot(*(self.trail[-1] - odom_from_base.position)) > 0.5:
+            self.trail = np.vstack([self.trail, odom_from_base.position])
+        self._turn_left -= abs(Pose2(0.0, 0.0, odom_from_base.theta - self._heading).theta)
+        self._heading = odom_from_base.theta
+        if self._outcome is None and scan.stamp - self._began >= self.settings.time_limit:
+            self._end(Outcome.GAVE_UP, f"the goal was not reached within {self.settings.time_limit:.0f} s")
+        if self._outcome is None and scan.stamp - self._planned >= self.settings.plan_every:
+            self._plan = self._make_plan(scan.stamp, estimate)
+            self._planned = scan.stamp
+        return self._report(scan, estimate)
+
+    def _localize(self, scan: LaserScan, odometry: Odometry) -> Estimate:
+        """Give the localizer a scan if the robot moved; else keep what it said."""
+        if self._estimate is None or self._perceived is None:
+            self._began = self._nearer_at = scan.stamp
+        else:
+            motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
+            if (
+                math.hypot(motion.x, motion.y) < self.settings.perceive_every
+                and abs(motion.theta) < self.settings.perceive_turn
+            ):
+                return self._estimate
+        before = self._estimate
+        self._estimate = self.localizer.update(scan, odometry)
+        self._perceived = odometry
+        if before and before.status is Status.LOCATED and self._estimate.status is Status.LOST:
+            self._times_lost += 1
+        return self._estimate
+
+    def _odom_from_base(self, odometry: Odometry) -> Pose2:
+        """Carry the registered pose on by what the wheels say since."""
+        assert self._perceived is not None
+        motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
+        return self.localizer.perception_map.odom_from_base @ motion
+
+    def _since_perceived(self) -> Pose2:
+        """Return the motion since the localizer was given a scan."""
+        return self.localizer.perception_map.odom_from_base.inverse() @ self.surroundings.odom_from_base
+
+    def _end(self, outcome: Outcome, reason: str) -> None:
+        """Stop for good."""
+        self._outcome, self._reason = outcome, reason
+
+    def _make_plan(self, stamp: float, estimate: Estimate) -> Plan | None:
+        """Decide what to do next; None to turn on the spot."""
+        if self._turn_left > 0.0:
+            return None
+        reach = self.surroundings.reach(self.settings.radius)
+        if len(reach.cells) == 0:
+            return None
+        knows = estimate.hypotheses[0].probability >= self.settings.act_on
+        if not knows or stamp < self._explore_until:
+            return self._explore(reach, estimate)
+        leg = self._leg(stamp)
+        if leg is None:
+            return self._explore(reach, estimate)
+        plan = self._follow(reach, leg)
+        return self._watch(plan, reach, stamp, estimate)
+
+    def _leg(self, stamp: float) -> Leg | None:
+        """Ask the drawing for the way; forget closed gateways after a while, and if nothing else is left."""
+        placement = self.localizer.placement.moved(self._since_perceived())
+        self._closed = {
+            gateway: since
+            for gateway, since in self._closed.items()
+            if stamp - since < self.settings.closed_for
+        }
+        for closed in (tuple(self._closed), ()):
+            try:
+                return lead(placement, self.graph, self.goal, self.settings.route, closed)
+            except RouteError:
+                if not closed:
+                    return None
+                self._closed = {}
+        return None
+
+    def _follow(self, reach: Reach, leg: Leg) -> Plan:
+        """Go where one can come nearest to the point that the drawing names."""
+        point = (reach.surroundings.odom_from_base @ leg.point[np.newaxis])[0]
+        gaps = np.hypot(*(reach.points - point).T)
+        index = int((gaps + 0.1 * reach.lengths).argmin())
+        near = leg.gateway_id and float(np.hypot(*leg.middle)) < 1.0
+        behavior = Behavior.GO_THROUGH if near else Behavior.CROSS
+        return Plan(behavior, reach.way_to(index), leg, float(gaps[index]))
+
+    def _watch(self, plan: Plan, reach: Reach, stamp: float, estimate: Estimate) -> Plan | None:
+        """See whether the robot arrives, or gets on at all."""
+        settings, leg = self.settings, plan.leg
+        assert leg is not None
+        in_cell = not leg.next_cell_id
+        to_goal = float(np.hypot(*leg.point)) if in_cell else math.inf
+        way_left = float(np.hypot(*(plan.target - reach.surroundings.odom_from_base.position)))
+        stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.beside
+        if to_goal < settings.arrived or stuck_beside:
+            if estimate.status is Status.LOCATED:
+                self._end(Outcome.REACHED, f"the goal in {estimate.cell_id} is reached")
+                return None
+            self._explore_until = stamp + 20.0
+            self._look_around(math.tau)
+            return None
+        left = leg.distance
+        if left < self._nearest - 0.2:
+            self._nearest, self._nearer_at, self._tried = left, stamp, 0
+        if stamp - self._nearer_at > settings.patience:
+            self._nearer_at, self._nearest = stamp, left
+            self._tried += 1
+            if self._tried % 3 == 1:
+                self._look_around(math.tau)
+                return None
+            if leg.gateway_id and float(np.hypot(*leg.middle)) < 3.0:
+                self._closed[leg.gateway_id] = stamp
+            self._explore_until = stamp + 10.0
+            self._nearest = math.inf
+        return plan
+
+    def _look_around(self, turn: float) -> None:
+        """Turn on the spot for so much [rad]."""
+        self._turn_left = turn
+
+    def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
+        """Drive to where the places held possible would look most different; keep to what was begun."""
+        if self._plan is not None and self._plan.behavior is Behavior.EXPLORE:
+            away = np.hypot(*(reach.points - self._plan.target).T)
+            index = int(away.argmin())
+            if away[index] < 0.3 and reach.lengths[index] > 0.5:
+                return Plan(Behavior.EXPLORE, reach.way_to(index))
+        rim = choose_rim(
+            reach, self.trail, estimate.hypotheses, self.localizer.atlas, self.settings.exploring
+        )
+        if rim is None:
+            return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, self.trail)))
+        return Plan(Behavior.EXPLORE, reach.way_to(rim))
+
+    def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
+        """Say what the wheels shall do."""
+        if self._outcome is not None:
+            return STILL, Behavior.REST
+        if self._plan is None:
+            return Twist(0.0, 0.7 * self.settings.steering.turn_rate), Behavior.LOOK_AROUND
+        base_from_odom = self.surroundings.odom_from_base.inverse()
+        way = base_from_odom @ self._plan.way
+        passed = int(np.hypot(way[:, 0], way[:, 1]).argmin())
+        remembered = base_from_odom @ self.surroundings.things
+        things = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < 0.1]])
+        command = steer(way[passed:], things, self.settings.radius, self.settings.steering)
+        waits = command.linear == 0.0 and abs(command.angular) < 0.05
+        return command, Behavior.WAIT if waits else self._plan.behavior
+
+    def _report(self, scan: LaserScan, estimate: Estimate) -> Step:
+        """Tell what is done and why."""
+        command, behavior = self._command(scan)
+        plan = self._plan
+        leg = plan.leg if plan else None
+        target = None
+        if plan is not None:
+            x, y = (self.surroundings.odom_from_base.inverse() @ plan.target[np.newaxis])[0]
+            target = float(x), float(y)
+        return Step(
+            scan.stamp,
+            command,
+            behavior,
+            estimate,
+            cell_belief=self.localizer.belief_in(estimate.cell_id),
+            alignment_error=self.localizer.placement.spread,
+            next_cell_id=leg.next_cell_id if leg else "",
+            gateway_id=leg.gateway_id if leg else "",
+            target=target,
+            distance=leg.distance if leg else math.inf,
+            closed_gateway_ids=tuple(self._closed),
+            times_lost=self._times_lost,
+            outcome=self._outcome,
+            reason=self._reason,
+        )

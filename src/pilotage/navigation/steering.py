@@ -1,0 +1,81 @@
+"""From a way to a command: steer for a point ahead, no faster than one can stop."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Array, Twist
+
+
+@dataclass(frozen=True, slots=True)
+class SteeringSettings:
+    """How fast the robot may move, and how far it stays off things."""
+
+    speed: float = 0.8  # [m/s]
+    turn_rate: float = 1.2  # [rad/s]
+    braking: float = 0.8  # [m/s2] that it can be sure of
+    delay: float = 0.2  # [s] from a scan to wheels that obey
+    clearance: float = 0.03  # [m] that the footprint stays off things
+    look_ahead: float = 0.6  # [m] how far along the way it steers for
+    pivot: float = math.radians(45.0)  # a turn wider than this is made on the spot
+    gain: float = 2.5  # [1/s] turn rate for each radian of bearing
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("speed", "turn_rate", "braking", "look_ahead", "pivot", "gain"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        for name in ("delay", "clearance"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+
+
+STILL = Twist(0.0, 0.0)
+
+
+def steer(way: Array, things: Array, radius: float, settings: SteeringSettings) -> Twist:
+    """Follow a way (k, 2) among things (n, 2), both in the robot's frame [m], safely for a disc of `radius`.
+
+    Stands still, or turns on the spot, where moving on would not be safe.
+    """
+    ahead = point_ahead(way, settings.look_ahead)
+    bearing = math.atan2(ahead[1], ahead[0])
+    angular = max(-settings.turn_rate, min(settings.turn_rate, settings.gain * bearing))
+    if abs(bearing) > settings.pivot:
+        return Twist(0.0, angular)
+    left = float(np.hypot(*(way[-1] - way[0]))) if len(way) > 1 else 0.0
+    fastest = settings.speed * math.cos(bearing) ** 2
+    fastest = min(fastest, math.sqrt(2.0 * settings.braking * max(left, 0.01)))
+    for share in (1.0, 0.75, 0.5, 0.3, 0.15):
+        linear = share * fastest
+        if is_safe(Twist(linear, share * angular), things, radius, settings):
+            return Twist(linear, share * angular)
+    return Twist(0.0, angular)
+
+
+def point_ahead(way: Array, distance: float) -> Array:
+    """Find the first point of a way that is so far from the robot, else its end, (2,)."""
+    far = np.flatnonzero(np.hypot(way[:, 0], way[:, 1]) >= distance)
+    return np.asarray(way[far[0]] if len(far) else way[-1])
+
+
+def is_safe(command: Twist, things: Array, radius: float, settings: SteeringSettings) -> bool:
+    """Tell whether a disc that obeys a command can still stop before it touches any of the things (n, 2).
+
+    One that is too near to something already may move on as long as it comes no nearer.
+    """
+    stopping = command.linear**2 / (2.0 * settings.braking) + command.linear * settings.delay
+    near = things[np.hypot(things[:, 0], things[:, 1]) < stopping + radius + settings.clearance + 0.1]
+    if len(near) == 0:
+        return True
+    count = max(2, math.ceil(stopping / 0.04))
+    ways = np.linspace(0.0, stopping, count)[1:]
+    turns = ways * (command.angular / max(command.linear, 1e-6))
+    # on an arc; sin(x) / x and (1 - cos(x)) / x, for x = 0 too
+    along = ways * np.sinc(turns / math.pi)
+    aside = ways * np.sin(turns / 2.0) * np.sinc(turns / math.tau)
+    gaps = np.hypot(near[:, :1] - along, near[:, 1:] - aside)
+    now = np.hypot(near[:, 0], near[:, 1])
+    needed = np.minimum(radius + settings.clearance, now - 1e-3)
+    return bool((gaps >= needed[:, np.newaxis]).all())
