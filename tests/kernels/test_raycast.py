@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point
 
-from pilotage.kernels.raycast import cast
+from pilotage.kernels.raycast import cast, cast_on_discs, cast_on_panes, cast_through
+from pilotage.kernels.segment_grid import build_grid
 
 FAR = 1000.0
 
@@ -60,3 +61,61 @@ def test_a_beam_along_a_wall_passes_it():
 
 def test_without_walls_nothing_returns():
     assert cast(np.zeros((1, 2)), np.zeros(1), np.empty((0, 4))).tolist() == [math.inf]
+
+
+@given(
+    rows=segments,
+    origin=st.tuples(st.floats(-12, 12), st.floats(-12, 12)),
+    direction=st.floats(-3.1, 3.1) | st.integers(-4, 4).map(lambda k: k * math.pi / 4),
+)
+@settings(deadline=None, max_examples=300)
+def test_looking_only_where_the_beam_goes_changes_nothing(rows, origin, direction):
+    where, way, walls = np.array([origin]), np.array([direction]), np.array(rows)
+
+    assert cast(where, way, walls).tolist() == cast_through(where, way, build_grid(walls)).tolist()
+
+
+def test_a_beam_through_thousands_of_walls_stops_at_the_first():
+    rng = np.random.default_rng(2)
+    steps = rng.choice([-0.05, 0.0, 0.05, 0.4], (5000, 2))
+    corners = (
+        rng.integers(0, 800, (5000, 2)) * 0.05
+    )  # walls along the grid of a map meet the borders of cells
+    walls = np.hstack([corners, corners + steps])
+    origins = np.vstack([corners[:2000], rng.uniform(-5, 45, (2000, 2))])
+    directions = np.concatenate([rng.uniform(-3, 3, 2000), rng.choice(4, 2000) * math.pi / 2])
+
+    np.testing.assert_array_equal(
+        cast(origins, directions, walls), cast_through(origins, directions, build_grid(walls))
+    )
+
+
+def test_glass_is_seen_by_beams_that_meet_it_squarely():
+    panes = np.array([[2.0, -9.0, 2.0, 9.0]])
+    directions = np.radians([0.0, 7.0, 9.0, 60.0, 60.0])
+    steepest = np.radians([8.0, 8.0, 8.0, 8.0, 90.0])
+    ranges = cast_on_panes(np.zeros((5, 2)), directions, panes, steepest)
+
+    np.testing.assert_allclose(ranges, [2.0, 2.0 / math.cos(directions[1]), math.inf, math.inf, 4.0])
+
+
+@given(
+    origin=st.tuples(st.floats(-3, 3), st.floats(-3, 3)),
+    direction=st.floats(-3.1, 3.1),
+    disc=st.tuples(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 1)),
+)
+@settings(deadline=None)
+def test_a_person_is_met_at_the_near_side(origin, direction, disc):
+    (distance,) = cast_on_discs(np.array([origin]), np.array([direction]), np.array([disc]))
+    beam = LineString([origin, (origin[0] + 9 * math.cos(direction), origin[1] + 9 * math.sin(direction))])
+    center = Point(disc[:2])
+    touching = min(abs(center.distance(one) - disc[2]) for one in (beam, Point(origin))) < 1e-6
+
+    if touching:
+        return
+    if center.distance(beam) > disc[2] or center.distance(Point(origin)) < disc[2]:
+        assert math.inf == distance
+    else:
+        met = (origin[0] + distance * math.cos(direction), origin[1] + distance * math.sin(direction))
+        assert math.isclose(disc[2], center.distance(Point(met)), abs_tol=1e-6)
+        assert distance <= center.distance(Point(origin))
