@@ -13,6 +13,7 @@ from pilotage.maps import SchematicMap
 from pilotage.simulation import (
     DriveSettings,
     LaserSettings,
+    Movers,
     OdometrySettings,
     RunSettings,
     World,
@@ -67,6 +68,36 @@ def test_what_is_beyond_reach_does_not_return():
 
     assert math.inf == scan.ranges[90]
     assert 3.0 == pytest.approx(scan.ranges[0])
+
+
+def test_glass_returns_what_meets_it_squarely_and_some_dust():
+    glazed = World(ROOM.segments, glass=np.array([[3.0, -3.0, 3.0, 4.0]]))
+    clean = LaserSettings(
+        beams=7201, noise=0.0, dropout=0.0, glass_angle=math.radians(5.01), glass_return=0.0
+    )
+    dusty = LaserSettings(beams=7201, noise=0.0, dropout=0.0, glass_angle=0.0, glass_return=0.2)
+    rng = np.random.default_rng(0)
+    x = sense(glazed, Pose2(0, 0, 0), 0.0, rng, clean).points_in_base[:, 0]
+    returned = np.isclose(3.0, sense(glazed, Pose2(0, 0, 0), 0.0, rng, dusty).points_in_base[:, 0])
+    off_deg = np.abs(np.linspace(-90, 90, 7201))
+    towards = off_deg < 40.0  # nothing but the glass is 3 m ahead there
+
+    np.testing.assert_array_equal(off_deg[towards] <= 5.0, np.isclose(3.0, x[towards]))
+    assert 0.2 == pytest.approx(returned[towards].mean(), abs=0.02)
+
+
+def test_people_and_closed_doors_hide_what_is_behind():
+    movers = Movers(np.array([[2.0, 0.0, 0.25]]), np.array([[1.0, 0.5, 1.0, 3.0]]))
+    exact = LaserSettings(beams=5, noise=0.0, dropout=0.0)  # 45 degrees apart
+    scan = sense(ROOM, Pose2(0, 0, 0), 0.0, np.random.default_rng(0), exact, movers=movers)
+
+    np.testing.assert_allclose([3.0, 3.0 * math.sqrt(2), 1.75, math.sqrt(2), 4.0], scan.ranges)
+
+
+def test_a_robot_stands_only_where_it_touches_nothing():
+    world = World(ROOM.segments, glass=np.array([[3.0, -3.0, 3.0, 4.0]]))
+
+    assert [True, False, False, True] == world.is_free([(0, 0), (4.9, 0), (2.9, 0), (3.5, 0)], 0.2).tolist()
 
 
 def test_the_robot_keeps_to_its_path_and_arrives():
@@ -140,6 +171,9 @@ def test_scans_are_taken_where_the_robot_has_moved_on():
         lambda: LaserSettings(range_max=-1.0),
         lambda: LaserSettings(noise=math.nan),
         lambda: LaserSettings(dropout=1.5),
+        lambda: LaserSettings(glass_angle=2.0),
+        lambda: LaserSettings(glass_return=-0.1),
+        lambda: Movers(np.zeros((1, 2)), np.zeros((0, 4))),
         lambda: DriveSettings(speed=0.0),
         lambda: OdometrySettings(slip=-0.1),
         lambda: OdometrySettings(persistence=0.0),

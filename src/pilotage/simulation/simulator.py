@@ -10,9 +10,9 @@ from pilotage.geometry import Array, Pose2, Twist
 from pilotage.perception import Odometry, Reading
 from pilotage.simulation.body import BodySettings, rolled
 from pilotage.simulation.laser import LaserSettings, sense
-from pilotage.simulation.movers import NOBODY
 from pilotage.simulation.odometry import OdometrySettings, Wheels
 from pilotage.simulation.scene import Scene
+from pilotage.simulation.traffic import Traffic
 from pilotage.simulation.world import World
 
 SKIN = 1e-6
@@ -67,9 +67,9 @@ class Simulator:
         self._steps = 0
         self._touching = False
         self._reading: Reading | None = None
-        self._movers = NOBODY
-        self._laser_rng, wheels_rng = rng.spawn(2)
+        self._laser_rng, wheels_rng, traffic_rng = rng.spawn(3)  # so that none disturbs the others
         self._wheels = Wheels(wheels_rng, settings.odometry)
+        self._traffic = Traffic(world, traffic_rng, start.position, settings.body.radius)
 
     @property
     def stamp(self) -> float:
@@ -79,12 +79,12 @@ class Simulator:
     @property
     def people(self) -> Array:
         """Where people stand now, (k, 2) [m]."""
-        return self._movers.people[:, :2]
+        return self._traffic.movers.people[:, :2]
 
     @property
     def closed_doors(self) -> Array:
         """The doors that are closed now, (m, 4) [m]."""
-        return self._movers.closed_doors
+        return self._traffic.movers.closed_doors
 
     @property
     def scene(self) -> Scene:
@@ -98,6 +98,7 @@ class Simulator:
         self.twist = self.settings.body.obeyed(self.twist, command, self.settings.time_step)
         self._move()
         self._steps += 1
+        self._traffic.step(self.stamp, self.settings.time_step, self.world_from_base.position)
         self._reading = None
 
     def read(self) -> Reading:
@@ -109,7 +110,7 @@ class Simulator:
                 self.stamp,
                 self._laser_rng,
                 self.settings.laser,
-                movers=self._movers,
+                movers=self._traffic.movers,
             )
             self._reading = Reading(scan, Odometry(self.stamp, self._wheels.odom_from_base))
         return self._reading
@@ -144,18 +145,17 @@ class Simulator:
             self.settings.body.radius + SKIN,
             self.world.solid_grid,
             self.closed_doors,
-            self._movers.people,
+            self._traffic.movers.people,
         )
         return float(share)
 
     def _room(self) -> float:
         """Measure from the robot's body to the nearest thing, up to a little over APART [m]."""
-        from pilotage.kernels.contact import clearances
-        from pilotage.kernels.segment_grid import build_grid
+        from pilotage.kernels.contact import distance_to_segment
 
         reach = self.settings.body.radius + 2.0 * APART
-        where = self.world_from_base.position[np.newaxis]
-        walls = float(clearances(where, self.world.solid_grid, reach)[0])
-        doors = float(clearances(where, build_grid(np.array(self.closed_doors)), reach)[0])
-        people = np.hypot(*(self.people - where).T) - self._movers.people[:, 2]
+        x, y = where = self.world_from_base.position
+        walls = float(self.world.clearance([where], reach)[0])
+        doors = min((float(distance_to_segment(x, y, door)) for door in self.closed_doors), default=reach)
+        people = np.hypot(*(self.people - where).T) - self._traffic.movers.people[:, 2]
         return min(walls, doors, float(people.min(initial=reach))) - self.settings.body.radius

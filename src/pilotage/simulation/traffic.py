@@ -1,0 +1,51 @@
+"""All that moves in a building but the robot: people, and doors that wait for whoever stands in them."""
+
+import numpy as np
+
+from pilotage.geometry import Array
+from pilotage.simulation.movers import Movers
+from pilotage.simulation.people import Walker
+from pilotage.simulation.world import World
+
+
+class Traffic:
+    """People under way and doors as they stand; `movers` is what is in the way now."""
+
+    def __init__(self, world: World, rng: np.random.Generator, robot: Array, robot_radius: float) -> None:
+        self._doors = tuple(door for door in world.doors if door.closed)
+        self._robot_radius = robot_radius
+        walker_rngs = rng.spawn(len(world.people))
+        self._walkers = tuple(
+            Walker(person, walker_rng, robot, robot_radius)
+            for person, walker_rng in zip(world.people, walker_rngs, strict=True)
+        )
+        self._is_closed = [False] * len(self._doors)
+        self._close_doors(0.0, robot)
+        self.movers = self._seen()
+
+    def step(self, stamp: float, time_step: float, robot: Array) -> None:
+        """Move on to a time [s] while the robot is at (2,) [m]."""
+        if not self._doors and not self._walkers:
+            return
+        for walker in self._walkers:
+            walker.step(time_step, robot, self.movers.closed_doors)
+        self._close_doors(stamp, robot)
+        self.movers = self._seen()
+
+    def _close_doors(self, stamp: float, robot: Array) -> None:
+        """Follow the schedules, but close no door on a robot or a person."""
+        from pilotage.kernels.contact import distance_to_segment
+
+        bodies = [(robot, self._robot_radius)]
+        bodies += [(walker.position, walker.person.radius) for walker in self._walkers]
+        for k, door in enumerate(self._doors):
+            self._is_closed[k] = door.should_be_closed(stamp) and (
+                self._is_closed[k]
+                or all(distance_to_segment(x, y, door.segment) > radius for (x, y), radius in bodies)
+            )
+
+    def _seen(self) -> Movers:
+        """Gather what is in the way."""
+        people = [(*walker.position, walker.person.radius) for walker in self._walkers]
+        doors = [door.segment for door, closed in zip(self._doors, self._is_closed, strict=True) if closed]
+        return Movers(np.array(people).reshape(-1, 3), np.array(doors).reshape(-1, 4))
