@@ -4,6 +4,7 @@ import math
 import warnings
 from pathlib import Path
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, LinearSegmentedColormap
@@ -18,6 +19,11 @@ GRAY = "#8b939e"
 PALE = "#e6e9ed"
 TRAIL = "#1f6f8b"
 ACCENT = "#d1495b"
+GOAL = "#e0a100"
+GATEWAY = "#4f9d69"
+DOOR = "#8c4a2f"
+PERSON = "#7b6ca8"
+GLASS = "#7cc4dc"
 
 CONFIDENCE: Colormap = LinearSegmentedColormap.from_list("confidence", ["#f2b134", "#5fa777", "#12587a"])
 """From doubt to certainty."""
@@ -25,6 +31,9 @@ RELEVANCE: Colormap = LinearSegmentedColormap.from_list(
     "relevance", ["#f6d9a8", "#e07a3f", "#8c2d2d", "#2b0f1e"]
 )
 """Darker is more relevant, as in the paper."""
+
+ARROW = np.array([[0.6, 0.0], [-0.4, 0.36], [-0.2, 0.0], [-0.4, -0.36]])
+"""From tip to wing to tail to wing, forward along x."""
 
 DPI = 160
 MOST_EXTREME = 8.0  # of the proportions of a picture
@@ -64,9 +73,14 @@ def frame(axes: Axes, low: Array, high: Array, margin: float = 0.04) -> None:
 
 
 def draw_robot(axes: Axes, pose: Pose2, size: float, color: str = ACCENT) -> None:
-    """Draw the robot as an arrowhead that points where it looks; size [axes' units] from tail to tip."""
-    outline = size * (pose.rotation @ [[0.6, -0.4, -0.2, -0.4], [0.0, 0.36, 0.0, -0.36]]).T + pose.position
+    """Draw the robot as an arrowhead that points where it looks."""
+    outline = arrow(pose, size)
     axes.fill(*outline.T, facecolor=color, edgecolor="white", linewidth=1.0, joinstyle="round", zorder=11)
+
+
+def arrow(pose: Pose2, size: float) -> Array:
+    """Return the outline of an arrowhead, (4, 2); size [units of the pose's frame] from tail to tip."""
+    return pose @ (size * ARROW)
 
 
 def draw_scale_bar(axes: Axes, length: float, text: str) -> None:
