@@ -10,6 +10,7 @@ from pilotage.simulation.robot import DriveSettings, Moment, follow, reckon
 from pilotage.simulation.run import Run, RunSettings, simulate
 from pilotage.simulation.scene import Scene
 from pilotage.simulation.simulator import Simulator, SimulatorSettings, StartError
+from pilotage.simulation.starting import find_start
 from pilotage.simulation.world import World
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "StartError",
     "Wheels",
     "World",
+    "find_start",
     "follow",
     "reckon",
     "sense",
