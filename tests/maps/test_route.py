@@ -9,6 +9,7 @@ from pilotage.maps import (
     RouteSettings,
     SchematicMap,
     check_place,
+    check_reachable,
     decompose,
     find_labeled,
     find_route,
@@ -112,3 +113,24 @@ def test_a_place_must_be_free():
         check_place(graph, (10.0, 5.0), "goal")
     with pytest.raises(RouteError, match="start lies outside the drawing"):
         check_place(graph, (30.0, 5.0), "start")
+
+
+APART = (
+    [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)],
+    [(5, 0), (5, 2)],
+    [(5, 3), (5, 5)],
+    [(20, 0), (24, 0), (24, 4), (20, 4), (20, 0)],
+)
+"""Two rooms that a door joins, and a smaller one apart."""
+
+
+def test_a_goal_must_hang_together_with_the_start_or_with_most_of_the_drawing():
+    graph = decomposed(*APART)
+    check_reachable(graph, (1.0, 1.0))
+    check_reachable(graph, (1.0, 1.0), start=(9.0, 1.0))
+    check_reachable(graph, (22.0, 2.0), start=(21.0, 2.0))
+
+    with pytest.raises(RouteError, match="no way leads from cell"):
+        check_reachable(graph, (22.0, 2.0), start=(1.0, 1.0))
+    with pytest.raises(RouteError, match="no gateways lead from the largest part"):
+        check_reachable(graph, (22.0, 2.0))

@@ -5,7 +5,7 @@ from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.decomposition import DecompositionSettings, decompose
 from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, NotEnclosedError, free_space
 from pilotage.maps.merging import MergeSettings
-from pilotage.maps.places import check_place, find_labeled
+from pilotage.maps.places import check_place, check_reachable, find_labeled
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.route import Route, RouteError, RouteSettings, find_route
 from pilotage.maps.schematic import Label, SchematicMap
@@ -32,6 +32,7 @@ __all__ = [
     "SchematicMap",
     "build_atlas",
     "check_place",
+    "check_reachable",
     "decompose",
     "find_labeled",
     "find_route",

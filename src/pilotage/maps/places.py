@@ -1,6 +1,7 @@
 """Places on a drawing as people name them: a point, or a word."""
 
 import numpy as np
+import rustworkx
 
 from pilotage.maps.cells import CellGraph
 from pilotage.maps.route import Point, RouteError
@@ -38,3 +39,36 @@ def check_place(graph: CellGraph, point: Point, what: str) -> None:
     amid = bool((low <= point).all() and (point <= high).all())
     where = "in a wall or in a place that is not free" if amid else "outside the drawing"
     raise RouteError(f"the {what} lies {where}, the nearest cell is {cell_id}")
+
+
+def check_reachable(graph: CellGraph, goal: Point, start: Point | None = None) -> None:
+    """Refuse a goal to which no gateways lead from the start, or from most of the drawing if that is unknown.
+
+    Raises RouteError that names the cells.
+    """
+    parts = connected_cells(graph)
+    goal_id = graph.cell_at(goal)
+    around_goal = next(part for part in parts if goal_id in part)
+    if start is not None:
+        start_id = graph.cell_at(start)
+        if start_id not in around_goal:
+            raise RouteError(f"no way leads from cell {start_id} to cell {goal_id}: no gateways join them")
+    elif around_goal != parts[0]:
+        raise RouteError(
+            f"the goal lies in cell {goal_id}, to which no gateways lead from the largest part of the"
+            " drawing, say where the robot starts if it is not there"
+        )
+
+
+def connected_cells(graph: CellGraph) -> list[set[str]]:
+    """Part the cells by what gateways join, the part of the largest area first."""
+    network = rustworkx.PyGraph()
+    network.add_nodes_from([cell.cell_id for cell in graph.cells])
+    index = graph.index_from_id
+    for gateway in graph.gateways:
+        first, second = gateway.cell_ids
+        network.add_edge(index[first], index[second], None)
+    found = [sorted(part) for part in rustworkx.connected_components(network)]
+    areas = [sum(graph.cells[k].polygon.area for k in part) for part in found]
+    order = sorted(range(len(found)), key=lambda number: (-areas[number], found[number]))
+    return [{graph.cells[k].cell_id for k in found[number]} for number in order]
