@@ -11,6 +11,7 @@ from pilotage.simulation.run import Run, RunSettings, simulate
 from pilotage.simulation.scene import Scene
 from pilotage.simulation.simulator import Simulator, SimulatorSettings, StartError
 from pilotage.simulation.starting import find_start
+from pilotage.simulation.ways import Way
 from pilotage.simulation.world import World
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "Simulator",
     "SimulatorSettings",
     "StartError",
+    "Way",
     "Wheels",
     "World",
     "find_start",

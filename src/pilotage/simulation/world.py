@@ -11,6 +11,7 @@ from pilotage.geometry import Array, Pose2, frozen_array, frozen_points
 from pilotage.maps import SchematicMap
 from pilotage.simulation.doors import Door
 from pilotage.simulation.people import Person
+from pilotage.simulation.ways import NO_WAY, Way, Ways
 
 if TYPE_CHECKING:
     from pilotage.kernels.segment_grid import SegmentGrid
@@ -109,4 +110,25 @@ class World:
 
     def is_free(self, points: ArrayLike, radius: float) -> NDArray[np.bool_]:
         """Tell at which points (n, 2) [m] a disc of this radius [m] touches nothing that always stands."""
-        return self.clearance(points, radius) >= radius
+        from pilotage.kernels.contact import enclosed
+
+        where = frozen_points(points, name="points", at_least=0)
+        is_free = self.clearance(where, radius) >= radius
+        return is_free & np.asarray(enclosed(where, self.opaque_grid)) if self.contours else is_free
+
+    def shortest_way(self, start: ArrayLike, goal: ArrayLike, radius: float) -> Way:
+        """Find the shortest way [m] of a disc of this radius [m] from place to place, (2,) [m] each.
+
+        Doors are open, but for those that never are, and people step aside. Without a way its length is inf.
+        """
+        ends = frozen_points(np.array([start, goal]), name="start and goal", at_least=2)
+        if not self.is_free(ends, radius).all():
+            return NO_WAY
+        if radius not in self._ways:
+            self._ways[radius] = Ways.among(self.solid_grid, radius)
+        return self._ways[radius].shortest(ends[0], ends[1])
+
+    @cached_property
+    def _ways(self) -> dict[float, Ways]:
+        """Where discs of each radius asked for can be."""
+        return {}
