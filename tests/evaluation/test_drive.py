@@ -143,10 +143,29 @@ def test_a_drive_begins_where_the_world_says():
     assert START == simulator.world_from_base
 
 
+def test_without_a_place_to_begin_the_seed_chooses_a_free_one():
+    first, again, other = (set_out(flat(), WORLD, GOAL, seed=seed)[1].world_from_base for seed in (1, 1, 2))
+
+    assert first == again != other
+    assert WORLD.is_free([first.position, other.position], 0.2).all()
+
+
+def test_a_world_without_free_space_is_refused():
+    with pytest.raises(PilotageError, match="free space that walls enclose"):
+        set_out(flat(), World(WORLD.segments[:1]), GOAL)
+
+
+def test_a_place_may_be_known_without_a_heading():
+    navigator, _ = set_out(flat(), WORLD, GOAL, start=(1.0, 6.0), world_start=START)
+    x, y, headings = navigator.localizer.belief.states[:3]
+
+    assert 2.0 > np.hypot(x - 1.0, y - 6.0).mean()
+    assert 0.3 > np.hypot(np.cos(headings).mean(), np.sin(headings).mean())
+
+
 @pytest.mark.parametrize(
     ("drawing", "goal", "settings", "error", "message"),
     [
-        (flat(), GOAL, {}, PilotageError, "the world marks none"),
         (flat(), (30.0, 30.0), {"world_start": START}, RouteError, "goal lies outside the drawing"),
         (flat(), "kitchen", {"world_start": START}, RouteError, "'kitchen' stands in no cell"),
         (flat(), GOAL, {"world_start": Pose2(0.0, 0.0, 0.0)}, PilotageError, "in or at a wall"),
@@ -156,6 +175,13 @@ def test_a_drive_begins_where_the_world_says():
             {"world_start": START, "start": Pose2(30.0, 30.0, 0.0)},
             RouteError,
             "start lies outside the drawing",
+        ),
+        (
+            SchematicMap((*flat().strokes, Polyline.through([(20, 0), (22, 0), (22, 2), (20, 2), (20, 0)]))),
+            (21.0, 1.0),
+            {"start": (1.0, 6.0), "world_start": START},
+            RouteError,
+            "no gateways join them",
         ),
         (
             SchematicMap((Polyline.through([(0, 0), (8, 0), (8, 3)]),)),

@@ -1,8 +1,9 @@
 """Drive a simulated robot to a goal on a drawing, and hold what came out against the truth."""
 
+import math
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
@@ -11,14 +12,13 @@ import numpy as np
 import shapely
 
 from pilotage.config import Settings
-from pilotage.errors import PilotageError
 from pilotage.evaluation.episodes import way_along
 from pilotage.geometry import Array, Pose2
-from pilotage.localization import Localizer, Status
-from pilotage.maps import Atlas, NotEnclosedError, SchematicMap, check_place, find_labeled
+from pilotage.localization import Localizer, LocalizerSettings, Status
+from pilotage.maps import Atlas, NotEnclosedError, SchematicMap, check_place, check_reachable, find_labeled
 from pilotage.navigation import Navigator, Outcome, Step
 from pilotage.perception import LaserScan, Odometry
-from pilotage.simulation import Scene, Simulator, World
+from pilotage.simulation import Scene, Simulator, SimulatorSettings, World, find_start
 
 NEAR_GOAL = 1.5
 """How far from the marked point the robot may stop [m]: a drawing tells no better."""
@@ -129,7 +129,7 @@ def set_out(
     world: World,
     goal: Point | str,
     *,
-    start: Pose2 | None = None,
+    start: Pose2 | Point | None = None,
     world_start: Pose2 | None = None,
     scale: float | None = None,
     seed: int = 0,
@@ -138,23 +138,48 @@ def set_out(
     """Put a robot into a world and give it a drawing with a goal; `drive` sets it going.
 
     `goal` is a point of the sketch (y up) or a word that stands in one cell; `start`, if the robot may know
-    it, a pose in the sketch, and `scale` drawing units per metre. It truly begins at `world_start`, or where
-    the world says. Raises PilotageError if it cannot be driven to the goal from there.
+    it, a pose in the sketch, or a point if it does not know its heading, and `scale` drawing units per metre.
+    It truly begins at `world_start`, or where the world says, or anywhere free, as the seed has it. Raises
+    PilotageError if it cannot be driven to the goal from there.
     """
     settings = settings if settings is not None else Settings()
-    truly = world_start if world_start is not None else world.start
-    if truly is None:
-        raise PilotageError("the robot needs a place to begin, the world marks none")
-    simulator = Simulator(world, truly, np.random.default_rng(seed), settings.simulator)
-    localizer = Localizer(drawing, settings.localizer, seed=seed, start=start, scale=scale)
+    localizer = Localizer(
+        drawing, informed(settings.localizer, start), seed=seed, start=start_pose(start), scale=scale
+    )
     graph = localizer.atlas.cell_graph
     if graph is None:
-        raise NotEnclosedError("a drawing to drive by must enclose free space, this one has no closed room")
-    if start is not None:
-        check_place(graph, (start.x, start.y), "start")
+        raise NotEnclosedError("a drawing to drive by must enclose free space, it has no closed room")
     target = find_labeled(graph, goal) if isinstance(goal, str) else goal
     check_place(graph, target, "goal")
-    return Navigator(localizer, target, settings.navigator), simulator
+    known = start_pose(start)
+    if known is not None:
+        check_place(graph, (known.x, known.y), "start")
+    check_reachable(graph, target, None if known is None else (known.x, known.y))
+    navigator = Navigator(localizer, target, settings.navigator)
+    return navigator, put_down(world, world_start, np.random.default_rng(seed), settings.simulator)
+
+
+def start_pose(start: Pose2 | Point | None) -> Pose2 | None:
+    """Make a pose of what is known of a start; a heading that is not known is any."""
+    return Pose2(*start, 0.0) if isinstance(start, tuple) else start
+
+
+def informed(settings: LocalizerSettings, start: Pose2 | Point | None) -> LocalizerSettings:
+    """Let the robot know as much of its heading as is known."""
+    if not isinstance(start, tuple):
+        return settings
+    prior = replace(settings.tracking.prior, known_heading=math.pi)
+    return replace(settings, tracking=replace(settings.tracking, prior=prior))
+
+
+def put_down(
+    world: World, world_start: Pose2 | None, rng: np.random.Generator, settings: SimulatorSettings
+) -> Simulator:
+    """Put the robot where it is to begin: there, or where the world says, or somewhere free."""
+    truly = world_start if world_start is not None else world.start
+    if truly is None:
+        truly = find_start(world, settings.body.radius, rng)
+    return Simulator(world, truly, rng, settings)
 
 
 def navigate(
@@ -162,7 +187,7 @@ def navigate(
     world: World,
     goal: Point | str,
     *,
-    start: Pose2 | None = None,
+    start: Pose2 | Point | None = None,
     world_start: Pose2 | None = None,
     scale: float | None = None,
     seed: int = 0,
