@@ -14,11 +14,18 @@ import numpy as np
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Pose2
 from pilotage.io.raster import Mask, read_entries, read_picture
-from pilotage.io.svg import read_svg
+from pilotage.io.svg import read_svg_world
 from pilotage.simulation import World
 
 FREE_BELOW = 0.196
 """Occupancy below which map_server takes a cell for free, if the file does not say."""
+
+
+LEAST_ROOM = 0.1
+"""Radius of the smallest robot that a world must have room for [m]."""
+
+MESH = 1000
+"""Room is looked for at places this share of a world's diagonal apart, or LEAST_ROOM if that is more."""
 
 
 def open_world(path: str | os.PathLike[str]) -> World:
@@ -27,9 +34,19 @@ def open_world(path: str | os.PathLike[str]) -> World:
     Raises FileError if the file is missing, of another kind, or has no free space.
     """
     file = Path(path)
-    if file.suffix.lower() in (".yaml", ".yml"):
-        return read_map_server_world(file)
-    return World.of(read_svg(file))
+    is_map = file.suffix.lower() in (".yaml", ".yml")
+    world = read_map_server_world(file) if is_map else read_svg_world(file)
+    if not has_room(world):
+        raise FileError(f"a world in metres must have room for a disc of {LEAST_ROOM} m, found none", file)
+    return world
+
+
+def has_room(world: World) -> bool:
+    """Tell whether a small robot can stand anywhere between the outermost walls."""
+    left, bottom, right, top = world.bounds
+    step = max(LEAST_ROOM, math.hypot(right - left, top - bottom) / MESH)
+    places = np.mgrid[left + step / 2.0 : right : step, bottom + step / 2.0 : top : step]
+    return bool(world.is_free(places.reshape(2, -1).T, LEAST_ROOM).any())
 
 
 def read_map_server_world(path: Path) -> World:

@@ -5,7 +5,7 @@ from pilotage.simulation.doors import Door
 from pilotage.simulation.laser import LaserSettings, sense
 from pilotage.simulation.movers import Movers
 from pilotage.simulation.odometry import OdometrySettings, Wheels
-from pilotage.simulation.people import Person
+from pilotage.simulation.people import WALKING_SPEED, Person
 from pilotage.simulation.robot import DriveSettings, Moment, follow, reckon
 from pilotage.simulation.run import Run, RunSettings, simulate
 from pilotage.simulation.scene import Scene
@@ -15,6 +15,7 @@ from pilotage.simulation.ways import Way
 from pilotage.simulation.world import World
 
 __all__ = [
+    "WALKING_SPEED",
     "BodySettings",
     "Door",
     "DriveSettings",

@@ -10,6 +10,9 @@ from pilotage.geometry import Array, Polyline
 COURTESY = 0.6
 """A person stops this far from a robot that is in the way [m]."""
 
+WALKING_SPEED = 1.0
+"""Of a person who is not in a hurry [m/s]."""
+
 PATIENCE = (2.0, 5.0)
 """How long a person waits until the way is free, and then turns round [s]: between these."""
 
@@ -22,7 +25,7 @@ class Person:
     """Walks along a path and back; a closed path is walked round and round."""
 
     path: Polyline  # [m]
-    speed: float = 1.0  # [m/s]
+    speed: float = WALKING_SPEED  # [m/s]
     radius: float = 0.25  # [m]
 
     def __post_init__(self) -> None:

@@ -1,5 +1,6 @@
-"""Drawings in SVG."""
+"""Drawings and worlds in SVG."""
 
 from pilotage.io.svg.reader import read_svg
+from pilotage.io.svg.world import read_svg_world
 
-__all__ = ["read_svg"]
+__all__ = ["read_svg", "read_svg_world"]

@@ -13,7 +13,7 @@ from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
 from pilotage.io.logs import read_bytes
 from pilotage.io.svg.flatten import flatten
-from pilotage.io.svg.roles import Role
+from pilotage.io.svg.roles import Role, Thing
 from pilotage.io.svg.style import leading_number, local_name
 from pilotage.io.svg.tree import Drawn, Viewport, read_page, walk
 from pilotage.maps import Label, SchematicMap
@@ -28,6 +28,9 @@ WHITE = svgelements.Color("white")
 
 ROUNDING = 1e-6
 """Relative error that transforms may leave in an area."""
+
+CLOSED, ALWAYS = "data-closed", "always"
+"""Where a door of a world says when it is closed, and what it says if it never opens."""
 
 SHAPES = {
     "path": svgelements.Path,
@@ -63,18 +66,12 @@ def read_svg(path: Path) -> SchematicMap:
 
     Raises FileError for a file that is missing, is not SVG, or shows no stroke.
     """
-    root = read_document(path)
-    try:
-        page = read_page(root)
-        items = [item for item in walk(root) if item.style.shown]
-        shapes = [shape for item in items for shape in read_shape(item)]
-    except (ValueError, IndexError, ArithmeticError) as error:
-        raise FileError(f"an SVG drawing holds a value that cannot be read ({error})", path) from error
-    walls = without_background([shape for shape in shapes if shape.drawn.role is Role.WALL], page)
+    shapes, texts, page = read_content(path)
+    drawn = [shape for shape in shapes if shape.drawn.role is Role.WALL and stands(shape.drawn)]
+    walls = without_background(drawn, page)
     strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
     if not strokes:
         raise FileError("a drawing needs at least one visible stroke, found none", path)
-    texts = [item for item in items if local_name(item.element.tag) == "text" and has_text(item)]
     return SchematicMap(
         strokes,
         start=marked(Role.START, shapes, texts),
@@ -83,6 +80,28 @@ def read_svg(path: Path) -> SchematicMap:
         source=str(path),
         y_down=True,
     )
+
+
+def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]:
+    """Read all shapes and texts that can be seen, and the page they stand on.
+
+    Raises FileError for a file that is missing or is not SVG.
+    """
+    root = read_document(path)
+    try:
+        page = read_page(root)
+        items = [item for item in walk(root) if item.style.shown]
+        shapes = [shape for item in items for shape in read_shape(item)]
+    except (ValueError, IndexError, ArithmeticError) as error:
+        raise FileError(f"an SVG drawing holds a value that cannot be read ({error})", path) from error
+    texts = [item for item in items if local_name(item.element.tag) == "text" and has_text(item)]
+    return shapes, texts, page
+
+
+def stands(item: Drawn) -> bool:
+    """Tell whether a stroke belongs to the building itself: not people of a world, nor doors that open."""
+    opens = item.notes.get(CLOSED, ALWAYS) != ALWAYS
+    return item.thing is not Thing.PERSON and not (item.thing is Thing.DOOR and opens)
 
 
 def read_document(path: Path) -> ET.Element:

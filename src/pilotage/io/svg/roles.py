@@ -24,6 +24,15 @@ class Role(Enum):
     IGNORE = "ignore"
 
 
+class Thing(Enum):
+    """What a stroke is made of in a world to drive in; a drawing does without."""
+
+    SOLID = "solid"
+    GLASS = "glass"
+    DOOR = "door"
+    PERSON = "person"  # the path along which someone walks
+
+
 SPOKEN = {
     **{role.value: role for role in Role if role is not Role.WALL},
     "labels": Role.LABEL,
@@ -32,6 +41,9 @@ SPOKEN = {
     "ignored": Role.IGNORE,
 }
 """The words that give a role; all else is a wall."""
+
+MATERIAL = {**{thing.value: thing for thing in Thing}, "doors": Thing.DOOR, "people": Thing.PERSON}
+"""The words that say what it is made of; all else is solid."""
 
 
 def words(element: Element) -> Iterator[str]:
@@ -52,3 +64,8 @@ def role_of(element: Element, inherited: Role) -> Role:
     if inherited is Role.IGNORE or Role.IGNORE in spoken:
         return Role.IGNORE
     return spoken[0] if spoken else inherited
+
+
+def thing_of(element: Element, inherited: Thing) -> Thing:
+    """Tell what an element is made of: by its own word, else as its holder."""
+    return next((MATERIAL[word] for word in words(element) if word in MATERIAL), inherited)

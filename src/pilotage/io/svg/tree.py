@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from svgelements import Matrix, Viewbox
 
-from pilotage.io.svg.roles import Role, role_of
+from pilotage.io.svg.roles import Role, Thing, role_of, thing_of
 from pilotage.io.svg.style import Style, StyleSheet, local_name
 
 USER_UNITS = {
@@ -71,6 +71,8 @@ class Drawn:
     page_from_element: Matrix
     style: Style
     role: Role
+    thing: Thing
+    notes: Mapping[str, str]  # the data-... attributes of the element and all that hold it
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +84,8 @@ class Place:
     page_from_user: Matrix = field(default_factory=Matrix)
     style: Style = field(default_factory=Style)
     role: Role = Role.WALL
+    thing: Thing = Thing.SOLID
+    notes: Mapping[str, str] = field(default_factory=dict)
 
 
 UNKNOWN_PAGE = Viewport(0.0, 0.0, 100.0, 100.0)
@@ -123,15 +127,22 @@ def walk(root: Element) -> Iterator[Drawn]:
             page_from_user=Matrix(declared.get("transform", "")) * place.page_from_user,
             style=place.style.of_child(declared),
             role=role_of(element, place.role),
+            thing=thing_of(element, place.thing),
+            notes={**place.notes, **noted(element)},
         )
         if tag in DRAWN:
             measures = measured(declared, place.viewport)
-            yield Drawn(element, measures, here.page_from_user, here.style, here.role)
+            yield Drawn(element, measures, here.page_from_user, here.style, here.role, here.thing, here.notes)
         elif tag == "use":
             waiting.extend(used(here, by_id))
         else:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
             waiting.extend(replace(inside, chain=(*inside.chain, child)) for child in reversed(element))
+
+
+def noted(element: Element) -> dict[str, str]:
+    """Collect the data-... attributes of an element."""
+    return {name: value.strip() for name, value in element.attrib.items() if name.startswith("data-")}
 
 
 def measured(declared: Mapping[str, str], viewport: Viewport) -> Mapping[str, str]:
