@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.places import find_place
 from pilotage.cli.terminal import refuse_existing, say
 
 if TYPE_CHECKING:
     from pilotage.maps import CellGraph, Route, SchematicMap
-    from pilotage.maps.route import Point
 
 
 class Shading(Enum):
@@ -119,20 +119,6 @@ def plan(sketch: "SchematicMap", graph: "CellGraph", start: str | None, goal: st
         check_place(graph, point, what)
         ends.append(point)
     return find_route(graph, ends[0], ends[1], RouteSettings())
-
-
-def find_place(words: str, sketch: "SchematicMap", graph: "CellGraph") -> "Point":
-    """Read `X,Y` in the axes of the drawing's file, or find the cell that bears a label."""
-    import numpy as np
-
-    from pilotage.maps import find_labeled
-
-    try:
-        x, y = (float(word) for word in words.split(","))
-    except ValueError:
-        return find_labeled(graph, words)
-    position = sketch.sketch_from_file(np.array([[x, y]]))[0]
-    return float(position[0]), float(position[1])
 
 
 def describe(graph: "CellGraph") -> str:

@@ -2,16 +2,13 @@
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from pilotage.cli.places import pose_on
 from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
 from pilotage.cli.terminal import refuse_existing, say
-
-if TYPE_CHECKING:
-    from pilotage.geometry import Pose2
-    from pilotage.maps import SchematicMap
 
 
 def localize(
@@ -62,28 +59,11 @@ def localize(
     from pilotage.io import open_map
 
     sketch = open_map(drawing)
+    known = None if start is None else pose_on(sketch, start, "--start")
     readings = read_stretch(log, first, last)
-    localizer = open_localizer(sketch, settings, seed, parse_start(start, sketch), scale)
+    localizer = open_localizer(sketch, settings, seed, known, scale)
     with estimates_sink(output, sketch) as write:
         estimates = run(localizer, readings, write)
     if figure is not None:
         draw(sketch, localizer, estimates, figure, title=f"{log.name} in {drawing.name}")
     say(summary(estimates))
-
-
-def parse_start(text: str | None, sketch: "SchematicMap") -> "Pose2 | None":
-    """Read `X,Y,HEADING_DEG` in the axes of the drawing's file."""
-    if text is None:
-        return None
-    import numpy as np
-
-    from pilotage.geometry import Pose2
-
-    try:
-        x, y, heading_deg = (float(word) for word in text.split(","))
-        position = sketch.sketch_from_file(np.array([[x, y]]))[0]
-        return Pose2(float(position[0]), float(position[1]), math.radians(heading_deg))
-    except ValueError as error:
-        raise typer.BadParameter(
-            f"a start must be three numbers X,Y,HEADING_DEG, got {text!r}", param_hint="--start"
-        ) from error
