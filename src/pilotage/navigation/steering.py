@@ -31,6 +31,9 @@ class SteeringSettings:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
 
 
+SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
+"""Of the speed, and of the distance to steer for, so much is tried, in order."""
+
 STILL = Twist(0.0, 0.0)
 
 
@@ -39,7 +42,7 @@ def steer(way: Array, things: Array, radius: float, settings: SteeringSettings) 
 
     Stands still, or turns on the spot, where moving on would not be safe.
     """
-    ahead = point_ahead(way, settings.look_ahead)
+    ahead = point_ahead(way, things, radius + settings.clearance, settings.look_ahead)
     bearing = math.atan2(ahead[1], ahead[0])
     angular = max(-settings.turn_rate, min(settings.turn_rate, settings.gain * bearing))
     if abs(bearing) > settings.pivot:
@@ -47,17 +50,26 @@ def steer(way: Array, things: Array, radius: float, settings: SteeringSettings) 
     left = float(np.hypot(*(way[-1] - way[0]))) if len(way) > 1 else 0.0
     fastest = settings.speed * math.cos(bearing) ** 2
     fastest = min(fastest, math.sqrt(2.0 * settings.braking * max(left, 0.01)))
-    for share in (1.0, 0.75, 0.5, 0.3, 0.15):
+    for share in SHARES:
         linear = share * fastest
         if is_safe(Twist(linear, share * angular), things, radius, settings):
             return Twist(linear, share * angular)
     return Twist(0.0, angular)
 
 
-def point_ahead(way: Array, distance: float) -> Array:
-    """Find the first point of a way that is so far from the robot, else its end, (2,)."""
-    far = np.flatnonzero(np.hypot(way[:, 0], way[:, 1]) >= distance)
-    return np.asarray(way[far[0]] if len(far) else way[-1])
+def point_ahead(way: Array, things: Array, room: float, distance: float) -> Array:
+    """Find the farthest point of a way, up to a distance, with so much room on the line to it, (2,)."""
+    near = things[np.hypot(things[:, 0], things[:, 1]) < distance + room]
+    away = np.hypot(way[:, 0], way[:, 1])
+    for share in SHARES:
+        far = np.flatnonzero(away >= share * distance)
+        point = way[far[0]] if len(far) else way[-1]
+        along = np.clip(near @ point / max(float(point @ point), 1e-9), 0.0, 1.0)
+        gaps = np.hypot(*(near - along[:, np.newaxis] * point).T)
+        now = np.hypot(near[:, 0], near[:, 1])
+        if (gaps >= np.minimum(room, now - 1e-3)).all():
+            break
+    return np.asarray(point)
 
 
 def is_safe(command: Twist, things: Array, radius: float, settings: SteeringSettings) -> bool:
