@@ -2,54 +2,8 @@
 
 import numpy as np
 
-Points = list[tuple[float, float]]
-
-
-def box(x: float, y: float, width: float, height: float) -> Points:
-    """Return a rectangle as a closed stroke."""
-    return [(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)]
-
-
-# As a person would draw them: one stroke for as long as the pen stays down, a gap for every door.
-WALLS: list[Points] = [
-    # outside, from the west end over the north to the hall; the lab has a bay
-    [(0, 10.7), (0, 8.5), (0, 3), (4.2, 3)],
-    [(4.2, 3), (4.2, 1), (10.6, 1), (10.6, 5)],
-    [(10.6, 5), (13.2, 5), (13.2, 0), (16.4, 0), (16.4, -1.2), (18.4, -1.2), (18.4, 0), (21, 0)],
-    [(21, 0), (30.5, 0), (35.5, 4.2), (35.5, 9.3), (32.8, 12.2)],
-    # north side of the corridor
-    [(0, 8.5), (1.9, 8.5)],
-    [(2.9, 8.5), (4.2, 8.5), (6.6, 8.5)],
-    [(7.7, 8.5), (10.6, 8.5), (11.3, 8.5)],
-    [(12.2, 8.5), (13.2, 8.5), (17.6, 8.5)],
-    [(18.9, 8.5), (21, 8.5)],
-    [(4.2, 3), (4.2, 8.5)],
-    [(10.6, 5), (10.6, 8.5)],
-    [(13.2, 5), (13.2, 8.5)],
-    [(21, 0), (21, 3.4)],
-    [(21, 4.4), (21, 8.5)],
-    # south side of the corridor
-    [(0, 10.7), (3.2, 10.7)],
-    [(4.2, 10.7), (6.2, 10.7), (9.6, 10.7)],
-    [(11.2, 10.7), (14.2, 10.7), (15.9, 10.7)],
-    [(16.8, 10.7), (19.2, 10.7)],
-    [(0, 10.7), (0, 16.2), (6.2, 16.2)],
-    [(6.2, 10.7), (6.2, 18.4), (14.2, 18.4), (14.2, 14.2)],
-    [(14.2, 13.0), (14.2, 10.7)],
-    [(14.2, 15.4), (19.2, 15.4)],
-    [(14.2, 18.4), (14.2, 20), (19.2, 20)],
-    # the southern stretch, the workshop and the corner office
-    [(19.2, 10.7), (19.2, 16.6)],
-    [(19.2, 17.6), (19.2, 20)],
-    [(19.2, 20), (21.6, 20), (30, 20)],
-    [(21.6, 20), (21.6, 18.6)],
-    [(21.6, 17.2), (21.6, 12.2)],
-    [(21.6, 12.2), (24.6, 12.2)],
-    [(26.6, 12.2), (30, 12.2)],
-    [(31.0, 12.2), (32.8, 12.2)],
-    [(30, 12.2), (30, 20)],
-    [(30, 20), (32.8, 20), (32.8, 12.2)],
-]
+from buildings.office import WALLS
+from buildings.plan import Points, box
 
 # What stands in the building and in no drawing.
 THINGS: list[Points] = [
@@ -96,3 +50,5 @@ WAYPOINTS = np.array(
         (20.5, 17.0), (20.5, 14.0), (20.4, 11.2), (18.0, 9.6), (16.4, 10.0), (16.35, 11.2), (16.2, 13.2),
     ]
 )  # fmt: skip
+
+__all__ = ["NAMES", "THINGS", "WALLS", "WAYPOINTS"]

@@ -62,8 +62,8 @@ def trembling(stroke: Points, hand: Hand, rng: np.random.Generator) -> Array:
         shares = np.concatenate([[0.12 / count], np.arange(1, count) / count, [1.0 - 0.12 / count, 1.0]])
         pieces.append(a + shares[:, np.newaxis] * (b - a))
     points = np.vstack(pieces)
-    strength = np.minimum(1.0, 0.3 + rng.random(len(points)))[:, np.newaxis]
-    return points + rng.normal(0.0, hand.tremor, points.shape) * strength
+    shaking = rng.normal(0.0, hand.tremor, points.shape)
+    return points + shaking * np.minimum(1.0, 0.3 + rng.random(len(points)))[:, np.newaxis]
 
 
 def smooth(points: Array) -> str:

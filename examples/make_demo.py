@@ -8,14 +8,14 @@ writes `world.svg`, `sketch.svg`, `run.log.gz` and `truth.jsonl`. All is made up
 import json
 import math
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from shapely import LineString, MultiPolygon, union_all
 
 import pilotage
-from demo_building import NAMES, THINGS, WALLS, WAYPOINTS, Points
+from demo_building import NAMES, THINGS, WALLS, WAYPOINTS
+from drawing import QUICK, smooth, trembling
 from pilotage.geometry import Array
 from pilotage.io import write_log
 from pilotage.simulation import RunSettings, World, simulate
@@ -36,9 +36,6 @@ Y_DRAWN = (-1.8, 0.0, 0.8, 2.4, 4.4, 7.4, 10.4, 11.7, 14.2, 15.1, 17.0, 18.9, 20
 SCALE = 22.0  # [drawing units / m]
 TURN = math.radians(-3.5)
 MARGIN = np.array([70.0, 110.0])  # [drawing units]
-TREMOR = 0.05  # [m]
-SWAY = 0.12  # [m], over some metres
-OVERSHOOT = 0.12  # [m] by which a stroke ends too early or too late
 
 
 def remembered(points: Array, sway: Array) -> Array:
@@ -48,36 +45,9 @@ def remembered(points: Array, sway: Array) -> Array:
     drawn_x = (1.0 - south) * np.interp(x, X_TRUE, X_NORTH) + south * np.interp(x, X_TRUE, X_SOUTH)
     drawn_y = np.interp(y, Y_TRUE, Y_DRAWN)
     waves = np.sin(0.35 * x[:, np.newaxis] + 0.5 * y[:, np.newaxis] * np.array([1, -1]) + sway)
-    drawn = np.column_stack([drawn_x, drawn_y]) + SWAY * waves
+    drawn = np.column_stack([drawn_x, drawn_y]) + QUICK.sway * waves
     c, s = math.cos(TURN), math.sin(TURN)
     return np.asarray(MARGIN + SCALE * drawn @ np.array([[c, s], [-s, c]]))
-
-
-def hand(stroke: Points, rng: np.random.Generator) -> Array:
-    """Draw a stroke as a hand does: points close together, trembling, ends a little off."""
-    corners = np.array(stroke, dtype=np.float64)
-    first, last = corners[0] - corners[1], corners[-1] - corners[-2]
-    corners[0] += first / np.hypot(*first) * rng.uniform(-OVERSHOOT / 2, OVERSHOOT)
-    corners[-1] += last / np.hypot(*last) * rng.uniform(-OVERSHOOT / 2, OVERSHOOT)
-    pieces = [corners[:1]]
-    for a, b in pairwise(corners):
-        count = max(2, round(float(np.hypot(*(b - a))) / 0.8))
-        shares = np.concatenate([[0.12 / count], np.arange(1, count) / count, [1.0 - 0.12 / count, 1.0]])
-        pieces.append(a + shares[:, np.newaxis] * (b - a))
-    points = np.vstack(pieces)
-    return (
-        points
-        + rng.normal(0.0, TREMOR, points.shape) * np.minimum(1.0, 0.3 + rng.random(len(points)))[:, None]
-    )
-
-
-def smooth(points: Array) -> str:
-    """Write points as a path of quadratic curves through the middles between them."""
-    middles = (points[:-1] + points[1:]) / 2.0
-    text = f"M{points[0, 0]:.1f} {points[0, 1]:.1f} L{middles[0, 0]:.1f} {middles[0, 1]:.1f}"
-    for control, end in zip(points[1:-1], middles[1:], strict=True):
-        text += f" Q{control[0]:.1f} {control[1]:.1f} {end[0]:.1f} {end[1]:.1f}"
-    return text + f" L{points[-1, 0]:.1f} {points[-1, 1]:.1f}"
 
 
 def ring(points: Array) -> str:
@@ -105,7 +75,9 @@ def write_world(path: Path) -> None:
 
 def write_sketch(path: Path, rng: np.random.Generator, sway: Array) -> None:
     """Write the drawing from memory: walls and names, no furniture, no scale."""
-    strokes = "\n".join(f'  <path d="{smooth(remembered(hand(wall, rng), sway))}"/>' for wall in WALLS)
+    strokes = "\n".join(
+        f'  <path d="{smooth(remembered(trembling(wall, QUICK, rng), sway))}"/>' for wall in WALLS
+    )
     spots = remembered(np.array([(x, y) for _, x, y in NAMES]), sway)
     names = "\n".join(
         f'  <text x="{x:.0f}" y="{y:.0f}">{name}</text>'

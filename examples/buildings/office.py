@@ -1,7 +1,5 @@
 """An office floor: rooms on both sides of a corridor, an irregular hall. Metres, y down as on the page."""
 
-import numpy as np
-
 from buildings.plan import Building, Memory, Points, box
 
 # As a person would draw them: one stroke for as long as the pen stays down, a gap for every door.
@@ -62,20 +60,6 @@ THINGS: list[Points] = [
     box(24.2, 9.0, 0.45, 0.45), box(25.0, 3.4, 0.5, 0.5), box(30.4, 8.6, 0.5, 0.5),
     box(7.8, 12.2, 0.45, 0.45),
 ]  # fmt: skip
-
-# From the office to the library, the lab and round the hall, through the workshop to the kitchen.
-WAYPOINTS = np.array(
-    [
-        (2.3, 5.6), (2.4, 7.6), (2.4, 9.2), (3.7, 9.6), (6.5, 9.5), (9.6, 9.9), (10.4, 10.6), (10.4, 12.2),
-        (9.4, 12.6), (11.2, 13.2), (11.6, 15.3), (10.9, 13.2), (10.4, 11.6), (10.5, 10.0), (12.5, 9.6),
-        (16.0, 9.6), (17.6, 9.4), (18.2, 8.6), (18.2, 7.2), (17.0, 5.6), (18.4, 6.6), (18.3, 8.4),
-        (18.9, 9.5),
-        (21.0, 9.8), (23.2, 7.8), (23.4, 4.6), (24.2, 2.4), (26.6, 2.0), (30.2, 3.2), (31.9, 6.0),
-        (31.9, 9.4),
-        (28.6, 10.4), (25.8, 10.8), (25.6, 12.6), (26.3, 14.6), (26.2, 17.6), (24.0, 17.6), (21.8, 17.9),
-        (20.5, 17.0), (20.5, 14.0), (20.4, 11.2), (18.0, 9.6), (16.4, 10.0), (16.35, 11.2), (16.2, 13.2),
-    ]
-)  # fmt: skip
 
 OFFICE = Building(
     name="office",
