@@ -7,7 +7,7 @@ import pytest
 
 from pilotage import demo
 
-COMMANDS = ("cells", "demo", "localize", "perceive", "settings", "simplify")
+COMMANDS = ("cells", "demo", "localize", "navigate", "perceive", "settings", "simplify")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -49,7 +49,14 @@ def test_a_wrong_call_is_exit_code_2(pilotage, words):
 
 @pytest.mark.parametrize(
     "words",
-    [("--help",), ("--version",), ("localize", "--help"), ("demo", "--help"), ("simplify", demo.SKETCH)],
+    [
+        ("--help",),
+        ("--version",),
+        ("localize", "--help"),
+        ("navigate", "--help"),
+        ("demo", "--help"),
+        ("simplify", demo.SKETCH),
+    ],
 )
 def test_light_commands_load_nothing_heavy(words):
     code = (

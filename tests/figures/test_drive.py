@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from drives import GATEWAY, SECOND, SKETCH, moment, through_the_door
-from pilotage.figures.animation import LEAST_STEP, MOST_FRAMES, animate, chosen_frames, describe
+from drives import GATEWAY, GRAPH, SECOND, SKETCH, moment, through_the_door
+from pilotage.figures.animation import LEAST_STEP, MOST_FRAMES, animate, caption_of, chosen_frames
 from pilotage.figures.drive import drive_figure, passed_gateways
 from pilotage.figures.style import save
 from pilotage.figures.trail import find_stretches
+from pilotage.figures.words import describe
 from pilotage.geometry import Polyline
-from pilotage.navigation import Behavior, Outcome
+from pilotage.navigation import Behavior
 
 DRIVE = through_the_door()
 
@@ -106,13 +107,18 @@ def test_frames_are_few_and_hold_the_first_and_last_step(seconds):
 
 def test_a_line_says_what_goes_on():
     step, _ = moment(10, x=1.0)
-    words = describe(step, 65.0)
+    words = describe(step, 65.0, GRAPH)
 
     assert words.startswith("1:05   cross   in ")
     assert f"next {SECOND}" in words
     assert words.endswith("4 m to go")
-    assert "lost" in describe(moment(0, x=1.0, lost=True)[0], 0.0)
-    assert "reached: there" in describe(replace(step, outcome=Outcome.REACHED, reason="there"), 1.0)
+    assert "lost, perhaps in" in describe(moment(0, x=1.0, lost=True)[0], 0.0, None)
+
+
+def test_the_last_caption_says_how_it_ended():
+    last = replace(DRIVE.steps[-1], reason="there")
+
+    assert "0:07   reached: there" == caption_of(replace(DRIVE, steps=(*DRIVE.steps[:-1], last)), 70)
 
 
 def test_the_drawing_may_be_flat():

@@ -8,6 +8,7 @@ import typer
 from pilotage.cli.cells import cells
 from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
+from pilotage.cli.navigate import navigate
 from pilotage.cli.perceive import perceive
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
@@ -44,6 +45,7 @@ def common(
 app.command()(cells)
 app.command()(demo)
 app.command()(localize)
+app.command()(navigate)
 app.command()(perceive)
 app.command()(settings)
 app.command()(simplify)

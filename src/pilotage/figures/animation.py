@@ -1,6 +1,5 @@
 """A drive as a moving picture: what the robot believes beside what is true."""
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,14 +12,13 @@ from PIL import Image
 
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
-from pilotage.figures.drive import clock, draw_goal
+from pilotage.figures.drive import draw_goal
 from pilotage.figures.recording import Recording
 from pilotage.figures.views import BelievedView, TrueView
+from pilotage.figures.words import clock, describe
 from pilotage.figures.world import draw_world
 from pilotage.geometry import Array
 from pilotage.io.files import replacing
-from pilotage.localization import Status
-from pilotage.navigation import Step
 
 PANEL_WIDTH, TALLEST = 4.6, 4.4  # [inches]
 HEAD, FOOT, MARGIN = 0.34, 0.42, 0.12  # [inches]
@@ -83,7 +81,7 @@ def render(drive: Recording, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8
         canvas.restore_region(background)
         for artist in (*believed.artists, *true.artists):
             figure.draw_artist(artist)
-        caption.set_text(describe(drive.steps[k], drive.times[k]))
+        caption.set_text(caption_of(drive, k))
         figure.draw_artist(caption)
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
@@ -110,15 +108,9 @@ def open_stage(drive: Recording) -> tuple[Figure, Axes, Axes]:
     return figure, left, right
 
 
-def describe(step: Step, seconds: float) -> str:
-    """Say in a line what is going on."""
-    estimate = step.estimate
-    if step.outcome is not None:
-        return f"{clock(seconds)}   {step.outcome.value}{': ' if step.reason else ''}{step.reason}"
-    where = f"in {estimate.cell_id}" if estimate.status is Status.LOCATED else "lost"
-    if step.next_cell_id:
-        where += f", next {step.next_cell_id}"
-    words = [clock(seconds), step.behavior.value, where, f"confidence {estimate.confidence:.2f}"]
-    if math.isfinite(step.distance):
-        words.append(f"{step.distance:.0f} m to go")
-    return "   ".join(words)
+def caption_of(drive: Recording, k: int) -> str:
+    """Say in a line what goes on at a step."""
+    step, seconds = drive.steps[k], drive.times[k]
+    if step.outcome is None:
+        return describe(step, seconds, drive.graph)
+    return f"{clock(seconds)}   {step.outcome.value}: {step.reason}"

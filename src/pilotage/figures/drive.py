@@ -13,6 +13,7 @@ from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
 from pilotage.figures.recording import Recording
 from pilotage.figures.trail import COLORS, LOCATED_WIDTH, LOST_WIDTH, STILL, draw_stretches, find_stretches
+from pilotage.figures.words import clock
 from pilotage.figures.world import draw_segments, draw_world
 from pilotage.geometry import Array
 from pilotage.localization import Status
@@ -142,16 +143,6 @@ def draw_marks(axes: Axes, times: Array, positions: Array, shown: NDArray[np.boo
                 x, y, clock(mark), fontsize=5.8, color=style.INK, ha="center", va="center",
                 zorder=10, bbox=BOX,
             )  # fmt: skip
-
-
-def clock(seconds: float) -> str:
-    """Write a time as minutes and seconds.
-
-    >>> clock(75.0)
-    '1:15'
-    """
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02d}"
 
 
 def draw_ring(axes: Axes, position: Array) -> None:

@@ -1,5 +1,6 @@
 """A drive as it is drawn: on what, where to, and step by step."""
 
+import bisect
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -33,6 +34,16 @@ class Recording:
     def times(self) -> Array:
         """When each step was taken, counted from the first, (n,) [s]."""
         return np.array([step.stamp for step in self.steps]) - self.steps[0].stamp
+
+    def step_at(self, stamp: float) -> int:
+        """Find the last step taken until then [s]; the first if there is none."""
+        return max(bisect.bisect_right(self.steps, stamp, key=lambda step: step.stamp) - 1, 0)
+
+    @property
+    def way(self) -> float:
+        """How far the robot truly drove [m]."""
+        positions = np.array([scene.world_from_base.position for scene in self.scenes])
+        return float(np.hypot(*np.diff(positions, axis=0).T).sum())
 
     @property
     def boxes(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:

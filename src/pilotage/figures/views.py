@@ -46,7 +46,8 @@ class BelievedView:
 
     def show(self, k: int) -> None:
         """Set everything as it is at a step."""
-        step, scan = self.drive.steps[k], self.drive.scenes[k].scan
+        step = self.drive.steps[k]
+        scan = self.drive.scenes[self.drive.step_at(step.estimate.stamp)].scan  # the one it was made of
         located = step.estimate.status is Status.LOCATED
         show_way(self.way, self.stretches, k)
         self.show_places(step)

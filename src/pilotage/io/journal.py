@@ -26,7 +26,7 @@ def step_record(step: Step, scene: Scene, sketch: SchematicMap) -> Record:
     """
     return {
         **estimate_record(step.estimate, sketch),
-        "stamp": step.stamp,
+        "stamp": round(step.stamp, 6),
         "behavior": step.behavior.value,
         "cell_belief": rounded(step.cell_belief),
         "alignment_error": finite(step.alignment_error),

@@ -1,0 +1,142 @@
+"""Drive in the simulator, show how it goes, and leave a folder: what `navigate` and `demo` share."""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.live import Live
+from rich.text import Text
+
+from pilotage.cli.terminal import busy, say
+from pilotage.errors import FileError
+
+if TYPE_CHECKING:
+    from pilotage.evaluation.drive import Instant
+    from pilotage.figures.recording import Recording
+    from pilotage.maps import CellGraph, SchematicMap
+    from pilotage.navigation import Navigator, Step
+    from pilotage.simulation import Scene, Simulator, World
+
+JOURNAL, FIGURE, ANIMATION = "journal.jsonl", "drive.png", "drive.gif"
+"""What a drive leaves in its folder."""
+EVERY = 5.0
+"""Without a terminal, a line is written every so many seconds of the simulation."""
+
+
+def drive_and_record(
+    sketch: "SchematicMap",
+    world: "World",
+    navigator: "Navigator",
+    simulator: "Simulator",
+    folder: Path | None,
+) -> "Recording":
+    """Drive to the end; the journal grows in the folder, if there is one."""
+    from pilotage.evaluation.drive import drive
+    from pilotage.figures.recording import Recording
+
+    graph = navigator.graph
+    with journal_in(folder, sketch) as write:
+        steps, scenes = follow(drive(navigator, simulator), graph, write)
+    return Recording(sketch, world, navigator.goal, steps, scenes, graph)
+
+
+def follow(
+    instants: "Iterable[Instant]", graph: "CellGraph", write: "Callable[[Step, Scene], None]"
+) -> "tuple[list[Step], list[Scene]]":
+    """Go through a drive, each step shown and written as it comes; Ctrl-C ends it where it is."""
+    steps, scenes = [], []
+    with progress(graph) as show:
+        try:
+            for instant in instants:
+                steps.append(instant.step)
+                scenes.append(instant.scene)
+                write(instant.step, instant.scene)
+                show(instant.step)
+        except KeyboardInterrupt:
+            if not steps:
+                raise
+    return steps, scenes
+
+
+@contextmanager
+def progress(graph: "CellGraph") -> "Iterator[Callable[[Step], None]]":
+    """Show what goes on: live if a person is watching, else a line now and then."""
+    from pilotage.figures.words import describe
+
+    console = Console(stderr=True)
+    if console.is_terminal:
+        with Live(console=console, refresh_per_second=8, transient=True) as live:
+            yield lambda step: live.update(Text(describe(step, step.stamp, graph)))
+        return
+    said = float("-inf")
+
+    def show(step: "Step") -> None:
+        nonlocal said
+        if step.stamp - said >= EVERY:
+            said = step.stamp
+            say(describe(step, step.stamp, graph))
+
+    yield show
+
+
+@contextmanager
+def journal_in(folder: Path | None, sketch: "SchematicMap") -> "Iterator[Callable[[Step, Scene], None]]":
+    """Open the journal in a folder; without a folder nothing is written."""
+    if folder is None:
+        yield lambda _step, _scene: None
+        return
+    from pilotage.io.journal import journal_file
+
+    with journal_file(folder / JOURNAL, sketch) as write:
+        yield write
+
+
+def make_folder(folder: Path, *, force: bool) -> None:
+    """Make a folder for a drive; one with other things in it must not be used unasked."""
+    try:
+        if folder.is_dir() and any(folder.iterdir()) and not force:
+            raise FileError("the folder holds something already, --force writes into it", folder)
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"the folder cannot be made ({error.strerror})", folder) from error
+
+
+def draw(recording: "Recording", folder: Path, title: str, *, moving: bool) -> None:
+    """Draw the drive, and let it move if that is wanted."""
+    from pilotage.figures.drive import drive_figure
+    from pilotage.figures.style import save
+
+    with busy("Drawing"):
+        save(drive_figure(recording, title), folder / FIGURE)
+        if moving:
+            from pilotage.figures.animation import animate
+
+            animate(recording, folder / ANIMATION)
+
+
+def story(recording: "Recording") -> str:
+    """Say in plain words what happened."""
+    from pilotage.figures.words import clock, name_cell
+    from pilotage.localization import Status
+    from pilotage.navigation import Outcome
+
+    last, scene = recording.steps[-1], recording.scenes[-1]
+    here = name_cell(last.estimate.cell_id, recording.graph)
+    effort = f"{recording.way:.0f} m and {clock(recording.times[-1])} minutes"
+    if last.outcome is Outcome.REACHED:
+        end = f"After {effort} the robot says that it stands at the goal, in {here}."
+    elif last.outcome is Outcome.GAVE_UP:
+        end = f"After {effort} the robot gave up: {last.reason}. It believes to be in {here}."
+    else:
+        end = f"The drive was stopped after {effort}. The robot believes to be in {here}."
+    located = [step.estimate.status is Status.LOCATED for step in recording.steps]
+    found = (
+        f"knew its place after {clock(recording.times[located.index(True)])}"
+        if any(located)
+        else "never knew its place"
+    )
+    lost = {0: "", 1: ", lost it once"}.get(last.times_lost, f", lost it {last.times_lost} times")
+    touched = {0: "nothing", 1: "something once"}.get(scene.collisions, f"things {scene.collisions} times")
+    return f"{end} It {found}{lost} and touched {touched}."

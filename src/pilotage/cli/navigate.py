@@ -1,0 +1,155 @@
+"""`pilotage navigate`: drive to a goal on a drawing, in a simulated world."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.drive import draw, drive_and_record, make_folder, story
+from pilotage.cli.places import parse_pose, point_or_label, pose_on
+from pilotage.cli.terminal import busy, say
+from pilotage.errors import FileError
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
+    from pilotage.geometry import Pose2
+    from pilotage.maps import SchematicMap
+    from pilotage.maps.route import Point
+
+
+def navigate(
+    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG, a picture or a ROS map.")],
+    *,
+    world: Annotated[
+        Path, typer.Option(help="The true building to drive in: SVG in metres, or a ROS map (YAML).")
+    ],
+    goal: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y|LABEL", help="Where to go.", show_default="as marked in the drawing"),
+    ] = None,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,HEADING_DEG",
+            help="Where on the drawing the robot is told that it starts; the heading in degrees, "
+            "counter-clockwise on the page from its x axis.",
+            show_default="as marked in the drawing, else unknown",
+        ),
+    ] = None,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            metavar="X,Y,HEADING_DEG",
+            help="Where it truly starts, in metres of the world, y up; the robot is not told.",
+            show_default="as marked in the world, else somewhere free",
+        ),
+    ] = None,
+    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    time_limit: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS", help="Simulated time after which it gives up.", show_default="as in settings"
+        ),
+    ] = None,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Folder for journal, figure and animation.", show_default="none"),
+    ] = None,
+    animation: Annotated[
+        bool,
+        typer.Option("--animation/--no-animation", help="Whether to draw the drive as a moving picture."),
+    ] = True,
+    force: Annotated[bool, typer.Option("--force", help="Write into a folder that holds something.")] = False,
+) -> None:
+    """Drive a simulated robot to a goal that is marked on a drawing of the building.
+
+    The robot has a laser, bad odometry and the drawing, which needs no scale and no furniture and may have
+    its proportions wrong. From cell to cell, a room or a corridor each, it finds the way to the goal. Only
+    the simulator knows the *world*.
+
+    Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
+    written in the drawing. With a folder it leaves *journal.jsonl*, an object a step, with what the robot
+    believed and did and, apart from it, the truth; *drive.png*, the drive on the drawing and in the world;
+    and *drive.gif*, the same as a moving picture.
+
+    **Examples:**
+
+    - `pilotage navigate office.svg --world building.yaml --goal kitchen -o run`
+    - `pilotage navigate office.svg --world building.svg --goal 310,120 --start 40,65,90 --from 2.5,3,90`
+    """
+    check_positive(scale, "--scale")
+    check_positive(time_limit, "--time-limit")
+    from pilotage.io import open_map, open_world
+
+    sketch = open_map(drawing)
+    building = open_world(world)
+    target = goal_on(sketch, goal)
+    known = sketch.start if start is None else pose_on(sketch, start, "--start")
+    truly = None if place is None else true_pose(place)
+    chosen = chosen_settings(settings, time_limit)
+    from pilotage.evaluation.drive import set_out
+    from pilotage.maps import NotEnclosedError
+    from pilotage.simulation import StartError
+
+    with busy("Reading the drawing"):
+        try:
+            navigator, simulator = set_out(
+                sketch,
+                building,
+                target,
+                start=known,
+                world_start=truly,
+                scale=scale,
+                seed=seed,
+                settings=chosen,
+            )
+        except NotEnclosedError as error:
+            raise FileError(str(error), drawing) from error
+        except StartError as error:
+            raise FileError(str(error), world) from error
+    if output is not None:
+        make_folder(output, force=force)
+    recording = drive_and_record(sketch, building, navigator, simulator, output)
+    told = story(recording)
+    typer.echo(told)
+    if output is not None:
+        draw(recording, output, f"{drawing.name}: {told.split('. ')[0]}", moving=animation)
+        say(f"See {output}.")
+
+
+def check_positive(value: float | None, option: str) -> None:
+    """Refuse a number that must be positive and is not."""
+    if value is not None and not (math.isfinite(value) and value > 0.0):
+        raise typer.BadParameter(f"it must be positive, got {value}", param_hint=option)
+
+
+def goal_on(sketch: "SchematicMap", words: str | None) -> "Point | str":
+    """Read the goal, or take the one that the drawing marks."""
+    if words is not None:
+        return point_or_label(words, sketch)
+    if sketch.goal is None:
+        raise typer.BadParameter("a drive needs a goal, the drawing marks none", param_hint="--goal")
+    return sketch.goal
+
+
+def true_pose(words: str) -> "Pose2":
+    """Read a pose in metres of the world."""
+    from pilotage.geometry import Pose2
+
+    return Pose2(*parse_pose(words, "--from"))
+
+
+def chosen_settings(path: Path | None, time_limit: float | None) -> "Settings":
+    """Read settings, and let the command line have the last word."""
+    from dataclasses import replace
+
+    from pilotage.config import Settings, read_settings
+
+    settings = Settings() if path is None else read_settings(path)
+    if time_limit is None:
+        return settings
+    return replace(settings, navigator=replace(settings.navigator, time_limit=time_limit))

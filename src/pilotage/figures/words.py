@@ -1,0 +1,39 @@
+"""What pictures and terminals say of a drive, in plain words."""
+
+import math
+
+from pilotage.localization import Status
+from pilotage.maps import CellGraph
+from pilotage.navigation import Step
+
+
+def clock(seconds: float) -> str:
+    """Write a time as minutes and seconds.
+
+    >>> clock(75.0)
+    '1:15'
+    """
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes}:{rest:02d}"
+
+
+def name_cell(cell_id: str, graph: CellGraph | None) -> str:
+    """Name a cell with the words that stand in it, if any do."""
+    label = graph.cell(cell_id).label if graph is not None and cell_id else ""
+    return f"{cell_id} ({label})" if label else cell_id
+
+
+def describe(step: Step, seconds: float, graph: CellGraph | None) -> str:
+    """Say in a line what goes on so many seconds after the first step."""
+    words = [clock(seconds), step.behavior.value, describe_place(step, graph)]
+    words.append(f"cell {step.cell_belief:.2f}, place {step.estimate.confidence:.2f}")
+    if math.isfinite(step.distance):
+        words.append(f"{step.distance:.0f} m to go")
+    return "   ".join(words)
+
+
+def describe_place(step: Step, graph: CellGraph | None) -> str:
+    """Say where the robot believes to be, and where it goes from there."""
+    here = name_cell(step.estimate.cell_id, graph)
+    where = f"in {here}" if step.estimate.status is Status.LOCATED else f"lost, perhaps in {here}"
+    return f"{where}, next {name_cell(step.next_cell_id, graph)}" if step.next_cell_id else where
