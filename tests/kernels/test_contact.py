@@ -4,17 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import LineString, MultiLineString, Point, Polygon
+from shapely import LineString, MultiLineString, Point
 
-from pilotage.kernels.contact import (
-    clearances,
-    enclosed,
-    share_before_all,
-    share_before_grid,
-    share_before_segment,
-)
+from pilotage.kernels.contact import clearances, share_before_all, share_before_grid, share_before_segment
 from pilotage.kernels.segment_grid import build_grid
-from strategies import star_shaped_outlines
 
 NONE = np.empty((0, 4))
 coordinates = st.floats(-5.0, 5.0).map(lambda value: round(value, 3))
@@ -109,17 +102,3 @@ def test_clearance_is_what_geometry_says(walls, places, farthest):
     np.testing.assert_allclose(
         expected, clearances(np.array(places), build_grid(segments), farthest), atol=1e-9
     )
-
-
-@given(
-    outline=star_shaped_outlines(),
-    places=st.lists(st.tuples(st.floats(-5, 5), st.floats(-5, 5)), min_size=1, max_size=20),
-)
-@settings(deadline=None)
-def test_a_contour_encloses_what_geometry_says(outline, places):
-    segments = np.hstack([outline.ring[:-1], outline.ring[1:]])
-    polygon = Polygon(outline.vertices)
-    away = [place for place in places if polygon.exterior.distance(Point(place)) > 1e-9]
-    expected = [polygon.contains(Point(place)) for place in away]
-
-    assert expected == enclosed(np.array(away).reshape(-1, 2), build_grid(segments)).tolist()

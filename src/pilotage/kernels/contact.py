@@ -144,25 +144,3 @@ def clearances(points: NDArray[np.float64], grid: SegmentGrid, farthest: float) 
                     distance = distance_to_segment(x, y, grid.segments[grid.members[member]])
                     distances[i] = min(distances[i], distance)
     return distances
-
-
-@njit(cache=True)
-def enclosed(points: NDArray[np.float64], grid: SegmentGrid) -> NDArray[np.bool_]:
-    """Tell which points (n, 2) an odd number of contours enclose, (n,); their segments are the grid's."""
-    odd = np.zeros(len(points), np.bool_)
-    for i in range(len(points)):
-        x, y = points[i, 0], points[i, 1]
-        row = math.floor((y - grid.bottom) / grid.cell)
-        if not 0 <= row < grid.rows:
-            continue
-        for column in range(max(math.floor((x - grid.left) / grid.cell), 0), grid.columns):
-            k = column * grid.rows + row
-            for member in range(grid.starts[k], grid.starts[k + 1]):
-                x1, y1, x2, y2 = grid.segments[grid.members[member]]
-                if (y1 <= y) == (y2 <= y):
-                    continue
-                crossing = x1 + (y - y1) * (x2 - x1) / (y2 - y1)
-                # in the cell that it lies in, so that a segment of many cells counts once
-                if crossing > x and math.floor((crossing - grid.left) / grid.cell) == column:
-                    odd[i] = not odd[i]
-    return odd

@@ -110,11 +110,13 @@ class World:
 
     def is_free(self, points: ArrayLike, radius: float) -> NDArray[np.bool_]:
         """Tell at which points (n, 2) [m] a disc of this radius [m] touches nothing that always stands."""
-        from pilotage.kernels.contact import enclosed
+        from pilotage.kernels.enclosure import enclosed
 
         where = frozen_points(points, name="points", at_least=0)
         is_free = self.clearance(where, radius) >= radius
-        return is_free & np.asarray(enclosed(where, self.opaque_grid)) if self.contours else is_free
+        if self.contours:
+            is_free[is_free] = enclosed(where[is_free], self.opaque_grid, self._enclosed_corners)
+        return is_free
 
     def shortest_way(self, start: ArrayLike, goal: ArrayLike, radius: float) -> Way:
         """Find the shortest way [m] of a disc of this radius [m] from place to place, (2,) [m] each.
@@ -127,6 +129,13 @@ class World:
         if radius not in self._ways:
             self._ways[radius] = Ways.among(self.solid_grid, radius)
         return self._ways[radius].shortest(ends[0], ends[1])
+
+    @cached_property
+    def _enclosed_corners(self) -> NDArray[np.bool_]:
+        """Which corners of the grid contours enclose."""
+        from pilotage.kernels.enclosure import enclosed_corners
+
+        return np.asarray(enclosed_corners(self.opaque_grid))
 
     @cached_property
     def _ways(self) -> dict[float, Ways]:
