@@ -1,0 +1,73 @@
+"""Hold the simulator's odometry to that of real robots, on the ways that they drove.
+
+    python benchmarks/odometry.py [--logs DIR]
+
+For each log, its own odometry is compared with the truth over stretches of a few metres, and so is what the
+simulator's wheels report when they are led along the same truth. Told are the medians over all stretches of
+the error of place, as a share of the way, and of heading, in degrees.
+"""
+
+import argparse
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from pilotage.evaluation.trajectory import motion_errors
+from pilotage.geometry import Pose2
+from pilotage.io.logs import open_log
+from pilotage.io.tum import read_trajectory
+from pilotage.simulation import OdometrySettings, reckon
+
+LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
+NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")
+STRETCHES = (1.0, 5.0, 20.0)  # [m]
+
+
+def main() -> None:
+    """Print two lines for each log."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--logs", type=Path, default=LOGS, help="folder with LOG.log.gz and LOG.truth.tum")
+    arguments = parser.parse_args()
+    everything: dict[str, list[np.ndarray]] = {"real": [], "simulated": []}
+    for name in NAMES:
+        readings = open_log(arguments.logs / f"{name}.log.gz").readings
+        truth = list(read_trajectory(arguments.logs / f"{name}.truth.tum"))
+        real = [reading.odometry.odom_from_base for reading in readings]
+        simulated = reckon(truth, np.random.default_rng(0), OdometrySettings())
+        for kind, reported in (("real", real), ("simulated", simulated)):
+            medians = np.array([median_errors(truth, reported, stretch) for stretch in STRETCHES])
+            everything[kind].append(medians)
+            tell(f"{name:18s} {kind:10s}", medians)
+    for kind, medians_of_logs in everything.items():
+        tell(f"{'median of logs':18s} {kind:10s}", np.median(medians_of_logs, axis=0))
+
+
+def median_errors(truth: list[Pose2], reported: list[Pose2], stretch: float) -> tuple[float, float]:
+    """Return the medians of the errors of place [share] and heading [deg] over stretches of a length [m]."""
+    steps = [math.hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(truth)]
+    stations = np.concatenate([[0.0], np.cumsum(steps)])
+    ends = np.searchsorted(stations, stations + stretch)
+    pairs = [(k, int(end)) for k, end in enumerate(ends) if end < len(truth)]
+    errors = motion_errors(
+        [reported[a].inverse() @ reported[b] for a, b in pairs],
+        [truth[a].inverse() @ truth[b] for a, b in pairs],
+    )
+    ways = np.array([stations[b] - stations[a] for a, b in pairs])
+    return float(np.median(errors.place / ways)), float(np.degrees(np.median(errors.turn)))
+
+
+def tell(title: str, medians: np.ndarray) -> None:
+    """Print place and heading for each stretch."""
+    parts = (
+        f"{stretch:3.0f} m: {100.0 * place:4.1f} % {turn:5.2f} deg"
+        for stretch, (place, turn) in zip(STRETCHES, medians, strict=True)
+    )
+    print(title, "   ".join(parts))
+
+
+if __name__ == "__main__":
+    main()
