@@ -9,39 +9,58 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from pilotage.config import Settings
     from pilotage.errors import FileError, PilotageError, SettingsError
-    from pilotage.geometry import Pose2, Similarity2
-    from pilotage.io import open_log, open_map
+    from pilotage.evaluation.drive import Drive, navigate
+    from pilotage.geometry import Pose2, Similarity2, Twist
+    from pilotage.io import open_log, open_map, open_world
     from pilotage.localization import Estimate, Hypothesis, Localizer, LocalizerSettings, Status
     from pilotage.maps import SchematicMap
+    from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Step
     from pilotage.perception import LaserScan, Odometry, Reading
+    from pilotage.simulation import World
 
 __all__ = [
+    "Behavior",
+    "Drive",
     "Estimate",
     "FileError",
     "Hypothesis",
     "LaserScan",
     "Localizer",
     "LocalizerSettings",
+    "Navigator",
+    "NavigatorSettings",
     "Odometry",
+    "Outcome",
     "PilotageError",
     "Pose2",
     "Reading",
     "SchematicMap",
+    "Settings",
     "SettingsError",
     "Similarity2",
     "Status",
+    "Step",
+    "Twist",
+    "World",
+    "navigate",
     "open_log",
     "open_map",
+    "open_world",
 ]
 
 HOMES = {
+    "config": ("Settings",),
     "errors": ("FileError", "PilotageError", "SettingsError"),
-    "geometry": ("Pose2", "Similarity2"),
-    "io": ("open_log", "open_map"),
+    "evaluation.drive": ("Drive", "navigate"),
+    "geometry": ("Pose2", "Similarity2", "Twist"),
+    "io": ("open_log", "open_map", "open_world"),
     "localization": ("Estimate", "Hypothesis", "Localizer", "LocalizerSettings", "Status"),
     "maps": ("SchematicMap",),
+    "navigation": ("Behavior", "Navigator", "NavigatorSettings", "Outcome", "Step"),
     "perception": ("LaserScan", "Odometry", "Reading"),
+    "simulation": ("World",),
 }
 """Where each public name lives; it is fetched at its first use, so that `import pilotage` stays light."""
 
