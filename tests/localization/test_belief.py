@@ -45,7 +45,7 @@ def test_resampling_draws_each_as_often_as_its_weight_asks_give_or_take_one(log_
 def test_mixing_gives_the_other_its_share():
     zeros, ones = Belief(np.zeros((6, 100)), np.zeros(100)), Belief(np.ones((6, 7)), np.zeros(7))
 
-    mixed = zeros.mixed(ones, 0.25, np.random.default_rng(0))
+    mixed = zeros.mixed(ones, 0.25, len(zeros), np.random.default_rng(0))
 
     assert 100 == len(mixed)
     assert 25 == mixed.states[0].sum()

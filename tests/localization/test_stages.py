@@ -108,7 +108,7 @@ def test_who_walks_through_a_wall_pays(atlas):
 
 
 def test_weighing_resamples_only_when_few_carry_the_weight(model):
-    settings = TrackingSettings(first_count=2000, count=1000)
+    settings = TrackingSettings(first_count=2000, count=1000, least=1000)
     seen, rng = look(scan_at(TRUE), VISIBILITY), np.random.default_rng(0)
     same = Belief(np.repeat(state_at(TRUE), 2000, axis=1), np.zeros(2000))
     few = Belief(same.states, np.r_[np.zeros(10), np.full(1990, -50.0)])

@@ -43,11 +43,16 @@ class Belief:
         states = self.states[:, np.minimum(picked, len(self) - 1)]
         return Belief(states, np.zeros(count))
 
-    def mixed(self, other: "Belief", share: float, rng: np.random.Generator) -> "Belief":
-        """Give a share of the whole to another belief; the count stays."""
-        taken = round(share * len(self))
-        states = [self.resampled(len(self) - taken, rng).states, other.resampled(taken, rng).states]
-        return Belief(np.hstack(states), np.zeros(len(self)))
+    def mixed(self, other: "Belief", share: float, count: int, rng: np.random.Generator) -> "Belief":
+        """Give a share of the whole to another belief, `count` hypotheses in all.
+
+        Where the share is nothing and the count stays, so do the weights.
+        """
+        taken = round(share * count)
+        if taken == 0 and count == len(self):
+            return self
+        states = [self.resampled(count - taken, rng).states, other.resampled(taken, rng).states]
+        return Belief(np.hstack(states), np.zeros(count))
 
 
 def stretched(states: Array, x: Array | float, y: Array | float) -> Array:

@@ -65,12 +65,8 @@ class EstimateSettings:
 
 def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tuple[Hypothesis, ...]:
     """Gather hypotheses that stand close together into places, the most probable first; at least one."""
-    block = settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
-    columns, rows = _blocks(belief, atlas, block)
-    shape = int(columns.max()) + 3, int(rows.max()) + 3  # a margin of one block all around
-    flat = (columns + 1) * shape[1] + rows + 1
-    masses = np.bincount(flat, belief.weights, shape[0] * shape[1])
-    remaining = np.asarray(masses, dtype=np.float64).reshape(shape)
+    columns, rows = _blocks(belief, atlas, settings)
+    remaining = _masses(columns, rows, belief.weights)
     found: list[Hypothesis] = []
     while len(found) < settings.hypotheses:
         summed = _around(remaining)
@@ -84,8 +80,25 @@ def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tup
     return tuple(found)
 
 
-def _blocks(belief: Belief, atlas: Atlas, block: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def count_blocks(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
+    """Count the blocks that belief is spread over: as many equal ones would have the same entropy."""
+    masses = _masses(*_blocks(belief, atlas, settings), belief.weights)
+    shares = masses[masses > 0.0]
+    return float(np.exp(-shares @ np.log(shares)))
+
+
+def _masses(columns: NDArray[np.int64], rows: NDArray[np.int64], weights: Array) -> Array:
+    """Sum weights block by block, with a margin of one block all around."""
+    shape = int(columns.max()) + 3, int(rows.max()) + 3
+    flat = (columns + 1) * shape[1] + rows + 1
+    return np.asarray(np.bincount(flat, weights, shape[0] * shape[1]), dtype=np.float64).reshape(shape)
+
+
+def _blocks(
+    belief: Belief, atlas: Atlas, settings: EstimateSettings
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Tell which block each hypothesis stands in, (n,), (n,); far off the drawing is at its rim."""
+    block = settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
     table = atlas.range_table
     left, bottom = table.corner
     extents = table.columns * table.cell_size, table.rows * table.cell_size

@@ -19,6 +19,7 @@ from pilotage.localization.estimate import (
     Estimate,
     EstimateSettings,
     Hypothesis,
+    count_blocks,
     estimate_from,
     find_places,
     steady_confidence,
@@ -49,13 +50,14 @@ class LocalizerSettings:
     tracking: TrackingSettings = field(default_factory=TrackingSettings)
     estimate: EstimateSettings = field(default_factory=EstimateSettings)
     step: float = 0.5  # [m] belief is weighed anew once the robot has moved this far
-    turn: float = math.radians(20.0)  # [rad] or turned so much: looks from one place err together
+    turn: float = math.radians(20.0)  # [rad] or turned so much
+    new_turn: float = math.radians(60.0)  # [rad] of a turn on the spot after which a look counts in full
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("step", "turn"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+        for name in ("step", "turn", "new_turn"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
 
 
 class Localizer:
@@ -94,6 +96,7 @@ class Localizer:
         self._views: tuple[View, ...] = ()
         self._places: tuple[Hypothesis, ...] = ()
         self._placement: Placement | None = None
+        self._search_due = False
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
@@ -104,8 +107,17 @@ class Localizer:
         self.perception_map = self.perception_map.merged(registration)
         motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
         if self._motion is None or self._is_due(motion):
+            if self._search_due:
+                self._search()
             self._weigh(scan, shapes, motion)
+            self._search_due = self._motion is not None and not self._is_due(registration.last_from_base)
+            if not self._search_due:
+                self._search()
+            self._settle(motion)
             motion = Pose2.identity()
+        elif self._search_due:  # where scans come close together, the next one has time for it
+            self._search()
+            self._search_due = False
         self._motion = motion
         return estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
 
@@ -126,19 +138,20 @@ class Localizer:
         return float(self.belief.weights[inside].sum())
 
     def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:
-        """Carry belief along, weigh it by what is seen now, and hold it against a search of the drawing."""
-        settings, rng = self.settings, self._rng
+        """Carry belief along, and weigh it by what is seen now."""
+        settings = self.settings
         seen = look(scan, settings.visibility)
         features = simplify_all([shape.polyline for shape in shapes], settings.features)
         corners = find_corners(features)
         self._views = extend_views(self._views, motion, seen, corners, settings.alignment.window)
-        belief = predict(self.belief, motion, self.atlas, self._tracking, rng)
-        belief = weigh(belief, seen, self._model, self._tracking, rng)  # 3.4
-        fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
-        sample = belief.resampled(len(fresh), rng).states
-        share = trust_in(fresh, sample, self._views, self._model, settings.alignment)
-        self.belief = belief.mixed(fresh, share, rng)
-        carried = self._moved_places(motion)
+        belief = predict(self.belief, motion, self.atlas, self._tracking, self._rng)
+        way, turn = math.hypot(motion.x, motion.y), abs(motion.theta)
+        news = min(way / settings.step + turn / settings.new_turn, 1.0) if self._places else 1.0
+        self.belief = weigh(belief, seen, self._model, self._tracking, self._rng, news=news)  # 3.4
+
+    def _settle(self, motion: Pose2) -> None:
+        """Gather belief into places, and see where in its surroundings the robot stands at the first."""
+        settings, carried = self.settings, self._moved_places(motion)
         self._places = find_places(self.belief, self.atlas, settings.estimate)
         at = self._places[0].sketch_from_base.pose
         self._placement = place_at(self.belief, (at.x, at.y), settings.estimate.jump)
@@ -147,6 +160,18 @@ class Localizer:
             self._confidence = steady_confidence(
                 self._confidence, carried[0], self._places[0], way, settings.estimate
             )
+
+    def _search(self) -> None:
+        """Hold belief against a search of the drawing, and let it have a share where it explains as much."""
+        settings, rng = self.settings, self._rng
+        fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
+        sample = self.belief.resampled(len(fresh), rng).states
+        share = trust_in(
+            fresh, sample, self._views, self._model, settings.alignment, confidence=self._confidence
+        )
+        blocks = count_blocks(self.belief, self.atlas, settings.estimate)
+        count = self._tracking.count_for(blocks, len(self.belief))
+        self.belief = self.belief.mixed(fresh, share, count, rng)
 
     def _first_states(self, start: Pose2 | None) -> Array:
         """Draw hypotheses before the first scan."""

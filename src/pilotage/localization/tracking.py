@@ -34,7 +34,9 @@ class TrackingSettings:
     prior: Prior = field(default_factory=Prior)
     drift: Drift = field(default_factory=Drift)
     first_count: int = 200_000  # hypotheses before the first scan
-    count: int = 50_000  # hypotheses once most are settled
+    count: int = 50_000  # hypotheses once most are settled, at most
+    least: int = 10_000  # hypotheses at one place
+    by_block: int = 1_000  # hypotheses for each square metre that belief is spread over
     shrink: float = 0.5  # share kept at each resampling on the way from the first count to the last
     resample_below: float = 0.5  # share of effective hypotheses below which belief is resampled
     wall_penalty: float = 3.0  # log-odds of walking through a drawn wall: a door forgotten, a wall moved
@@ -42,12 +44,18 @@ class TrackingSettings:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        if not self.first_count >= self.count >= 1:
+        if not self.first_count >= self.count >= self.least >= 1:
             raise ValueError(
-                f"counts need first_count >= count >= 1, got {self.first_count} and {self.count}"
+                "counts need first_count >= count >= least >= 1, "
+                f"got {self.first_count}, {self.count} and {self.least}"
             )
         if not 0.0 < self.shrink <= 1.0:
             raise ValueError(f"shrink must be in (0, 1], got {self.shrink}")
+
+    def count_for(self, blocks: float, now: int) -> int:
+        """Say how many hypotheses are needed for belief that is spread over so many square metres."""
+        enough = max(self.least, min(self.count, round(self.by_block * blocks)))
+        return now if now > self.count else enough
 
 
 def predict(
@@ -87,10 +95,20 @@ def predict(
 
 
 def weigh(
-    belief: Belief, seen: Look, model: VisibilityModel, settings: TrackingSettings, rng: np.random.Generator
+    belief: Belief,
+    seen: Look,
+    model: VisibilityModel,
+    settings: TrackingSettings,
+    rng: np.random.Generator,
+    *,
+    news: float = 1.0,
 ) -> Belief:
-    """Weigh every hypothesis by how well it predicts what is seen; resample when few carry the weight."""
-    weighed = Belief(belief.states, belief.log_weights + model.score(belief.states, seen))
+    """Weigh every hypothesis by how well it predicts what is seen; resample when few carry the weight.
+
+    Looks from one place err together, so that a look counts only for the share of it that is `news`.
+    """
+    weighed = Belief(belief.states, belief.log_weights + news * model.score(belief.states, seen))
     if weighed.effective_count >= settings.resample_below * len(weighed):
         return weighed
-    return weighed.resampled(max(settings.count, int(settings.shrink * len(weighed))), rng)
+    fewer = max(settings.count, int(settings.shrink * len(weighed)))
+    return weighed.resampled(min(fewer, len(weighed)), rng)

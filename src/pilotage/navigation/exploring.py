@@ -48,7 +48,7 @@ def find_rims(reach: Reach, settings: ExploringSettings) -> NDArray[np.intp]:
     order = np.lexsort((reach.lengths[at_rim], blocks[:, 1], blocks[:, 0]))
     ordered = blocks[order]
     first = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
-    return at_rim[order[first]]
+    return np.asarray(at_rim[order[first]], dtype=np.intp)
 
 
 def box_mean(mask: NDArray[np.bool_], half: int) -> Array:

@@ -80,7 +80,7 @@ class Navigator:
         self._began = 0.0
         self._plan: Plan | None = None
         self._planned = -math.inf
-        self._turn_left = math.tau  # [rad] still to be turned while looking around
+        self._turn_left = 0.0  # [rad] still to be turned while looking around
         self._heading = 0.0
         self._closed: dict[str, float] = {}  # gateways found closed, and when
         self._nearest = math.inf  # [m] that the robot came to the point it heads for
@@ -111,13 +111,17 @@ class Navigator:
         """Give the localizer a scan if the robot moved; else keep what it said."""
         if self._estimate is None or self._perceived is None:
             self._began = self._nearer_at = scan.stamp
-        else:
-            motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
-            if (
-                math.hypot(motion.x, motion.y) < self.settings.perceive_every
-                and abs(motion.theta) < self.settings.perceive_turn
-            ):
-                return self._estimate
+            self._estimate = self.localizer.update(scan, odometry)
+            self._perceived = odometry
+            if self._estimate.status is Status.LOST:
+                self._look_around(math.tau)
+            return self._estimate
+        motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
+        if (
+            math.hypot(motion.x, motion.y) < self.settings.perceive_every
+            and abs(motion.theta) < self.settings.perceive_turn
+        ):
+            return self._estimate
         before = self._estimate
         self._estimate = self.localizer.update(scan, odometry)
         self._perceived = odometry
