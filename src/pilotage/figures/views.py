@@ -53,8 +53,9 @@ class BelievedView:
         self.show_places(step)
         self.returns.set_data(*(step.estimate.sketch_from_base @ scan.points_in_base).T)
         self.returns.set_alpha(0.8 if located else 0.25)
-        for artist in (self.cell, self.route, self.gateway):
-            artist.set_visible(located and step.outcome is None)
+        self.cell.set_visible(located)
+        self.route.set_visible(located and step.outcome is None)
+        self.gateway.set_visible(located and step.outcome is None)
         if located and self.drive.graph is not None:
             self.show_plan(step, self.drive.graph)
 
