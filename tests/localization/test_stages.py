@@ -8,7 +8,7 @@ import pytest
 
 from buildings import flat, readings_of, scan_at, walk
 from pilotage.geometry import Pose2
-from pilotage.localization import EstimateSettings, Hypothesis, TrackingSettings, VisibilitySettings
+from pilotage.localization import EstimateSettings, TrackingSettings, VisibilitySettings
 from pilotage.localization.alignment import (
     AlignmentSettings,
     View,
@@ -21,7 +21,7 @@ from pilotage.localization.alignment import (
 from pilotage.localization.belief import Belief, similarity_of
 from pilotage.localization.estimate import find_places, steady_confidence
 from pilotage.localization.proposals import Prior, propose_anywhere, propose_by_corners, propose_near
-from pilotage.localization.tracking import predict, weigh
+from pilotage.localization.tracking import predict, thin, weigh
 from pilotage.localization.visibility import VisibilityModel, look
 from pilotage.maps import AtlasSettings, build_atlas
 from pilotage.perception import LaserScan, PerceptionSettings, perceive
@@ -107,14 +107,14 @@ def test_who_walks_through_a_wall_pays(atlas):
     assert (moved.log_weights < 0.0).all()
 
 
-def test_weighing_resamples_only_when_few_carry_the_weight(model):
+def test_belief_is_resampled_only_when_few_carry_the_weight(model):
     settings = TrackingSettings(first_count=2000, count=1000, least=1000)
     seen, rng = look(scan_at(TRUE), VISIBILITY), np.random.default_rng(0)
     same = Belief(np.repeat(state_at(TRUE), 2000, axis=1), np.zeros(2000))
     few = Belief(same.states, np.r_[np.zeros(10), np.full(1990, -50.0)])
 
-    assert 2000 == len(weigh(same, seen, model, settings, rng))
-    assert 1000 == len(weigh(few, seen, model, settings, rng))
+    assert 2000 == len(thin(weigh(same, seen, model), settings, rng))
+    assert 1000 == len(thin(weigh(few, seen, model), settings, rng))
 
 
 def test_corners_seen_propose_the_true_pose(atlas):
@@ -203,13 +203,11 @@ def test_places_far_off_the_drawing_are_still_places(atlas):
 
 def test_confidence_grows_with_the_way_and_begins_anew_after_a_jump():
     settings = EstimateSettings(confirmation=4.0, jump=2.0)
-    here = Hypothesis("c1", similarity_of(state_at(TRUE)[:, 0]), 0.95)
-    there = Hypothesis("c2", similarity_of(state_at(Pose2(8.0, 5.0, 0.0))[:, 0]), 0.95)
 
     grown = [0.0]
     for _ in range(40):
-        grown.append(steady_confidence(grown[-1], here, here, 0.5, settings))
+        grown.append(steady_confidence(grown[-1], 0.95, 0.1, 0.5, settings))
 
     assert grown == sorted(grown)
     assert math.isclose(0.95 * (1 - math.exp(-20.0 / 4.0)), grown[-1], rel_tol=1e-9)
-    assert steady_confidence(grown[-1], here, there, 0.5, settings) < 0.2
+    assert steady_confidence(grown[-1], 0.95, 3.0, 0.5, settings) < 0.2

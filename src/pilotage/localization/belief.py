@@ -33,6 +33,12 @@ class Belief:
         return np.asarray(weights / weights.sum())
 
     @property
+    def log_mass(self) -> float:
+        """The logarithm of the sum of the weights before they are normalized."""
+        highest = float(self.log_weights.max())
+        return highest + math.log(float(np.exp(self.log_weights - highest).sum()))
+
+    @property
     def effective_count(self) -> float:
         """How many equal hypotheses would be as uncertain: 1 / sum of squared weights."""
         return float(1.0 / np.sum(self.weights**2))

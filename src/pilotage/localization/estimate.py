@@ -1,7 +1,7 @@
 """What is claimed of the robot's place: never one global pose, but a place and a local similarity."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -124,18 +124,50 @@ def _place(states: Array, weights: Array, atlas: Atlas) -> Hypothesis:
     )
 
 
+def share_at(place: Hypothesis, belief: Belief, settings: EstimateSettings) -> float:
+    """Return the share of belief that stands at a place."""
+    at, scale = place.sketch_from_base.pose, place.sketch_from_base.scale
+    away = np.hypot(belief.states[X] - at.x, belief.states[Y] - at.y)
+    return float(belief.weights[away <= settings.jump * scale].sum())
+
+
+def defended(
+    own: Hypothesis,
+    share: float,
+    confidence: float,
+    places: tuple[Hypothesis, ...],
+    settings: EstimateSettings,
+) -> tuple[Hypothesis, ...]:
+    """Put the incumbent's place first among the challenger's, of which it has a share.
+
+    It is as probable as the challenger has it, or as the robot is still confident; the others have the rest.
+    """
+    probability = min(max(share, confidence), 1.0)
+    left = (1.0 - probability) / max(1.0 - share, 1e-9)
+    others = (
+        replace(place, probability=min(place.probability * left, 1.0))
+        for place in places
+        if distance_between(own, place) > settings.jump
+    )
+    return (replace(own, probability=probability), *others)[: settings.hypotheses]
+
+
+def distance_between(first: Hypothesis, second: Hypothesis) -> float:
+    """Measure between two places [m], in the scale of the first."""
+    a, b = first.sketch_from_base.pose, second.sketch_from_base.pose
+    return math.hypot(a.x - b.x, a.y - b.y) / first.sketch_from_base.scale
+
+
 def steady_confidence(
-    confidence: float, carried: Hypothesis, best: Hypothesis, distance: float, settings: EstimateSettings
+    confidence: float, share: float, jump: float, distance: float, settings: EstimateSettings
 ) -> float:
     """Let confidence grow with the way [m] on which the same place stays the most probable.
 
-    A share of the weights alone is badly overconfident: wrong places look certain for a few metres. A jump
-    from the place `carried` along by the robot's motion begins anew.
+    The `share` of the weights alone is badly overconfident: wrong places look certain for a few metres. A
+    `jump` [m] from the place that was carried along by the robot's motion begins anew.
     """
-    before, now = carried.sketch_from_base.pose, best.sketch_from_base.pose
-    jump = math.hypot(now.x - before.x, now.y - before.y) / best.sketch_from_base.scale
     kept = confidence if jump <= settings.jump else 0.0
-    return kept + (best.probability - kept) * -math.expm1(-distance / settings.confirmation)
+    return kept + (share - kept) * -math.expm1(-distance / settings.confirmation)
 
 
 def estimate_from(

@@ -20,15 +20,19 @@ from pilotage.localization.estimate import (
     EstimateSettings,
     Hypothesis,
     count_blocks,
+    defended,
+    distance_between,
     estimate_from,
     find_places,
+    share_at,
     steady_confidence,
 )
+from pilotage.localization.incumbent import Incumbent, IncumbentSettings, first_incumbent, gain_of
 from pilotage.localization.placement import Placement, place_at
 from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
 from pilotage.localization.registration import RegistrationSettings, register
-from pilotage.localization.tracking import TrackingSettings, predict, weigh
-from pilotage.localization.visibility import VisibilityModel, VisibilitySettings, look
+from pilotage.localization.tracking import TrackingSettings, predict, thin, weigh
+from pilotage.localization.visibility import Look, VisibilityModel, VisibilitySettings, look
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry, PerceptionMap, PerceptionSettings, perceive
 from pilotage.perception.perception_map import PerceptionMapSettings
@@ -48,6 +52,7 @@ class LocalizerSettings:
     visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
     alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
     tracking: TrackingSettings = field(default_factory=TrackingSettings)
+    incumbent: IncumbentSettings = field(default_factory=IncumbentSettings)
     estimate: EstimateSettings = field(default_factory=EstimateSettings)
     step: float = 0.5  # [m] belief is weighed anew once the robot has moved this far
     turn: float = math.radians(20.0)  # [rad] or turned so much
@@ -97,6 +102,7 @@ class Localizer:
         self._places: tuple[Hypothesis, ...] = ()
         self._placement: Placement | None = None
         self._search_due = False
+        self._incumbent: Incumbent | None = None  # whose belief is believed, if not this one
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
@@ -144,21 +150,44 @@ class Localizer:
         features = simplify_all([shape.polyline for shape in shapes], settings.features)
         corners = find_corners(features)
         self._views = extend_views(self._views, motion, seen, corners, settings.alignment.window)
-        belief = predict(self.belief, motion, self.atlas, self._tracking, self._rng)
         way, turn = math.hypot(motion.x, motion.y), abs(motion.theta)
         news = min(way / settings.step + turn / settings.new_turn, 1.0) if self._places else 1.0
-        self.belief = weigh(belief, seen, self._model, self._tracking, self._rng, news=news)  # 3.4
+        weighed = self._weighed(self.belief, motion, seen, news)
+        incumbent = self._incumbent
+        if incumbent is not None:
+            own = self._weighed(incumbent.belief, motion, seen, news)
+            gain = gain_of((self.belief, weighed), (incumbent.belief, own))
+            own = thin(own, self._tracking, self._rng)
+            self._incumbent = incumbent.contested(own, gain, self._confidence, settings.incumbent)
+        self.belief = thin(weighed, self._tracking, self._rng)
+
+    def _weighed(self, belief: Belief, motion: Pose2, seen: Look, news: float) -> Belief:
+        """Move belief and weigh it by a look."""
+        moved = predict(belief, motion, self.atlas, self._tracking, self._rng)
+        return weigh(moved, seen, self._model, news=news)
 
     def _settle(self, motion: Pose2) -> None:
         """Gather belief into places, and see where in its surroundings the robot stands at the first."""
-        settings, carried = self.settings, self._moved_places(motion)
-        self._places = find_places(self.belief, self.atlas, settings.estimate)
-        at = self._places[0].sketch_from_base.pose
-        self._placement = place_at(self.belief, (at.x, at.y), settings.estimate.jump)
+        settings, carried = self.settings.estimate, self._moved_places(motion)
+        if self._incumbent is not None and self._incumbent.is_beaten:
+            self._incumbent = None
+        believed = self.belief if self._incumbent is None else self._incumbent.belief
+        places = find_places(self.belief, self.atlas, settings)
+        share = places[0].probability
+        if self._incumbent is not None:
+            own = find_places(believed, self.atlas, replace(settings, hypotheses=1))[0]
+            share = share_at(own, self.belief, settings)
+            places = defended(own, share, self._confidence, places, settings)
         if carried:
+            jump = distance_between(places[0], carried[0])
             way = math.hypot(motion.x, motion.y)
-            self._confidence = steady_confidence(
-                self._confidence, carried[0], self._places[0], way, settings.estimate
+            self._confidence = steady_confidence(self._confidence, share, jump, way, settings)
+        self._places = places
+        at = places[0].sketch_from_base.pose
+        self._placement = place_at(believed, (at.x, at.y), settings.jump)
+        if self._incumbent is None:
+            self._incumbent = first_incumbent(
+                self.belief, self._confidence, self.settings.incumbent, self._rng
             )
 
     def _search(self) -> None:
@@ -166,9 +195,7 @@ class Localizer:
         settings, rng = self.settings, self._rng
         fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
         sample = self.belief.resampled(len(fresh), rng).states
-        share = trust_in(
-            fresh, sample, self._views, self._model, settings.alignment, confidence=self._confidence
-        )
+        share = trust_in(fresh, sample, self._views, self._model, settings.alignment)
         blocks = count_blocks(self.belief, self.atlas, settings.estimate)
         count = self._tracking.count_for(blocks, len(self.belief))
         self.belief = self.belief.mixed(fresh, share, count, rng)

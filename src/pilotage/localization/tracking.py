@@ -94,21 +94,17 @@ def predict(
     return Belief(states, belief.log_weights - settings.wall_penalty * blocked)
 
 
-def weigh(
-    belief: Belief,
-    seen: Look,
-    model: VisibilityModel,
-    settings: TrackingSettings,
-    rng: np.random.Generator,
-    *,
-    news: float = 1.0,
-) -> Belief:
-    """Weigh every hypothesis by how well it predicts what is seen; resample when few carry the weight.
+def weigh(belief: Belief, seen: Look, model: VisibilityModel, *, news: float = 1.0) -> Belief:
+    """Weigh every hypothesis by how well it predicts what is seen.
 
     Looks from one place err together, so that a look counts only for the share of it that is `news`.
     """
-    weighed = Belief(belief.states, belief.log_weights + news * model.score(belief.states, seen))
-    if weighed.effective_count >= settings.resample_below * len(weighed):
-        return weighed
-    fewer = max(settings.count, int(settings.shrink * len(weighed)))
-    return weighed.resampled(min(fewer, len(weighed)), rng)
+    return Belief(belief.states, belief.log_weights + news * model.score(belief.states, seen))
+
+
+def thin(belief: Belief, settings: TrackingSettings, rng: np.random.Generator) -> Belief:
+    """Resample where few hypotheses carry the weight."""
+    if belief.effective_count >= settings.resample_below * len(belief):
+        return belief
+    fewer = max(settings.count, int(settings.shrink * len(belief)))
+    return belief.resampled(min(fewer, len(belief)), rng)

@@ -1,0 +1,71 @@
+"""Who is believed when two beliefs disagree: the incumbent, until the challenger has earned it.
+
+Belief that is held against a fresh search at every look finds its place from anywhere, but it also leaves a
+right place where the drawing is wrong for a few metres: in a niche drawn as a hall, before a door drawn as
+wall. So beside it, and without any search, the belief is carried along that the robot was confident in. It
+gives way only when the other has explained the looks better by more than that confidence was worth.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.localization.belief import Belief
+
+
+@dataclass(frozen=True, slots=True)
+class IncumbentSettings:
+    """What it takes to give a place up."""
+
+    odds: float = 15.0  # log-odds that full confidence is worth
+    most: float = 2.0  # log-odds that one look can add: for a while any place may be drawn wrong
+    least: float = 1.0  # log-odds below which nothing is worth defending
+    count: int = 10_000  # hypotheses
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be meant."""
+        for name in ("odds", "least"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+        if not self.most > 0.0:
+            raise ValueError(f"most must be > 0, got {self.most}")
+        if not self.count >= 1:
+            raise ValueError(f"count must be >= 1, got {self.count}")
+
+
+@dataclass(frozen=True, eq=False)
+class Incumbent:
+    """The belief that is believed, and how far the challenger has come."""
+
+    belief: Belief
+    stake: float = 0.0  # log-odds by which the challenger must lead
+    lead: float = 0.0  # log-odds by which it does
+
+    def contested(
+        self, belief: Belief, gain: float, confidence: float, settings: IncumbentSettings
+    ) -> "Incumbent":
+        """Carry its belief on after a look that the challenger explained better by `gain`."""
+        lead = max(self.lead + max(-settings.most, min(settings.most, gain)), 0.0)
+        stake = settings.odds * confidence if lead == 0.0 else self.stake
+        return Incumbent(belief, stake, lead)
+
+    @property
+    def is_beaten(self) -> bool:
+        """Tell whether the challenger has earned it."""
+        return self.lead >= self.stake
+
+
+def first_incumbent(
+    belief: Belief, confidence: float, settings: IncumbentSettings, rng: np.random.Generator
+) -> Incumbent | None:
+    """Make belief the incumbent's if the robot is confident enough for there to be something to defend."""
+    stake = settings.odds * confidence
+    if stake < settings.least:
+        return None
+    return Incumbent(belief.resampled(settings.count, rng), stake)
+
+
+def gain_of(belief: tuple[Belief, Belief], incumbent: tuple[Belief, Belief]) -> float:
+    """Return by how much a belief predicted a look better than the incumbent's, each before and after it."""
+    (before, after), (its_before, its_after) = belief, incumbent
+    return (after.log_mass - before.log_mass) - (its_after.log_mass - its_before.log_mass)
