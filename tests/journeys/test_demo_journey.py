@@ -1,34 +1,36 @@
-"""The demo from its command to its picture."""
+"""The demo from its command to its pictures."""
 
 import json
-import math
+import re
 
-import pytest
+from PIL import Image
 
-from pilotage import demo, open_map
-from pilotage.cli.demo import claim
-
-
-@pytest.fixture(scope="module")
-def truth():
-    return [json.loads(line) for line in demo.TRUTH.read_text().splitlines()]
+from pilotage import open_map, worlds
+from pilotage.cli.demo import GOAL, claim
+from pilotage.cli.drive import ANIMATION, FIGURE, JOURNAL
 
 
-def test_the_demo_finds_the_robot_and_says_so(pilotage, tmp_path, truth):
-    outcome = pilotage("demo", "-o", tmp_path / "demo")
-    records = [json.loads(line) for line in (tmp_path / "demo" / "estimates.jsonl").read_text().splitlines()]
-    final = records[-1]
+def test_the_demo_drives_to_the_room_and_says_so(pilotage, tmp_path):
+    folder = tmp_path / "demo"
+    outcome = pilotage("demo", "-o", folder)
+    records = [json.loads(line) for line in (folder / JOURNAL).read_text().splitlines()]
+    told = re.search(r'In truth it stands in the room called "(.*)", (.*) m from the marked', outcome.out)
 
     assert 0 == outcome.code
-    assert [row["stamp"] for row in truth] == [record["stamp"] for record in records]
-    assert "located" == final["status"]
-    assert 2.0 * final["scale"] > math.dist((final["x"], final["y"]), (truth[-1]["x"], truth[-1]["y"]))
-    assert 'near the word "kitchen"' in outcome.out
-    assert (tmp_path / "demo" / "where.png").read_bytes().startswith(b"\x89PNG")
+    assert "lost" == records[0]["status"]
+    assert "reached" == records[-1]["outcome"]
+    assert 0 == records[-1]["truth"]["collisions"]
+    assert "the robot says that it stands at the goal" in outcome.out
+    assert GOAL == told[1]
+    assert 1.5 > float(told[2])
+    assert (folder / FIGURE).read_bytes().startswith(b"\x89PNG")
+    assert 3e6 > (folder / ANIMATION).stat().st_size
+    with Image.open(folder / ANIMATION) as picture:
+        assert 200 >= picture.n_frames > 20
 
 
 def test_the_demo_leaves_files_of_others_alone(pilotage, tmp_path):
-    precious = tmp_path / "estimates.jsonl"
+    precious = tmp_path / JOURNAL
     precious.write_text("precious")
 
     assert 1 == pilotage("demo", "-o", tmp_path).code
@@ -37,14 +39,12 @@ def test_the_demo_leaves_files_of_others_alone(pilotage, tmp_path):
 
 
 def test_the_demo_may_make_its_own_files_anew(tmp_path):
-    file = tmp_path / "demo" / "where.png"
+    file = tmp_path / "demo" / FIGURE
     claim(file.parent, [file], force=False)
     file.write_text("made by the demo")
 
     claim(file.parent, [file], force=False)
 
 
-def test_the_packed_drawing_has_its_cells_named():
-    words = {label.text for label in open_map(demo.SKETCH).labels}
-
-    assert {"office", "library", "lab", "hall", "workshop", "kitchen"} <= words
+def test_the_drawing_of_the_demo_names_its_goal():
+    assert 1 == [label.text for label in open_map(worlds.OFFICE.quick).labels].count(GOAL)

@@ -1,25 +1,26 @@
-"""`pilotage demo`: the whole journey on what is packed with the package."""
+"""`pilotage demo`: a whole drive on what is packed with the package."""
 
-import json
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run
-from pilotage.cli.terminal import say
+from pilotage.cli.drive import ANIMATION, FIGURE, JOURNAL, draw, drive_and_record, story
+from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.geometry import Array
-    from pilotage.localization import Estimate
-    from pilotage.maps import SchematicMap
-    from pilotage.perception import Reading
+    from pilotage.figures.recording import Recording
+    from pilotage.maps.route import Point
+    from pilotage.worlds import PackedWorld
 
 MARK = ".pilotage-demo"
 """A folder with this file in it was made by the demo, and may be made anew."""
+GOAL = "Ana"
+"""Whom the robot visits: her room is at the other end of the floor."""
 
 
 def demo(
@@ -28,28 +29,29 @@ def demo(
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
     force: Annotated[bool, typer.Option("--force", help="Replace files that the demo did not make.")] = False,
 ) -> None:
-    """Find a simulated robot in a drawing made from a poor memory.
+    """Drive a simulated robot through an office to a room that is named on a quick drawing.
 
-    The robot drives through an office floor full of furniture with a laser and bad odometry. The drawing has
-    no scale, wrong proportions and no furniture, and nobody says where the drive begins. Leaves
-    *where.png* and *estimates.jsonl* in the folder.
+    The office is full of furniture, people walk about and a door closes; the robot has a laser and bad
+    odometry. The drawing was made from a poor memory: no scale, wrong proportions, no furniture. Nobody says
+    where the drive begins. After about a minute it leaves *journal.jsonl*, *drive.png* and *drive.gif* in the
+    folder, and a sentence that says what happened. `pilotage navigate` does the same with a drawing and a
+    world of your own.
 
     **Example:** `pilotage demo -o demo`
     """
-    estimates_path, figure_path = output / "estimates.jsonl", output / "where.png"
-    claim(output, [estimates_path, figure_path], force=force)
-    from pilotage import demo as packed
-    from pilotage.io import open_map
+    claim(output, [output / name for name in (JOURNAL, FIGURE, ANIMATION)], force=force)
+    from pilotage.evaluation.drive import set_out
+    from pilotage.io import open_map, open_world
+    from pilotage.worlds import OFFICE
 
-    sketch = open_map(packed.SKETCH)
-    readings = read_stretch(packed.LOG, 0, None)
-    localizer = open_localizer(sketch, None, seed, None, None)
-    with estimates_sink(estimates_path, sketch) as write:
-        estimates = run(localizer, readings, write)
-    truth = read_truth(packed.TRUTH, sketch)
-    draw(sketch, localizer, estimates, figure_path, title="A robot found in a drawing", truth=truth)
-    typer.echo(story(estimates, readings, truth, sketch))
-    say(f"See {figure_path} and {estimates_path}.")
+    sketch, building = open_map(OFFICE.quick), open_world(OFFICE.world)
+    with busy("Reading the drawing"):
+        navigator, simulator = set_out(sketch, building, GOAL, seed=seed)
+    driven = drive_and_record(sketch, building, navigator, simulator, output)
+    recording = replace(driven, true_goal=find_true_goal(driven, OFFICE))
+    typer.echo(f"{story(recording)} {truth(recording, OFFICE)}")
+    draw(recording, output, f'To "{GOAL}" in an office drawn from memory', moving=True)
+    say(f"See {output / ANIMATION}, {output / FIGURE} and {output / JOURNAL}.")
 
 
 def claim(folder: Path, files: Sequence[Path], *, force: bool) -> None:
@@ -68,47 +70,23 @@ def claim(folder: Path, files: Sequence[Path], *, force: bool) -> None:
         raise FileError(f"the folder cannot be made ({error.strerror})", folder) from error
 
 
-def read_truth(path: Path, sketch: "SchematicMap") -> "Array":
-    """Read where the robot truly was at each scan, in the sketch frame, (n, 2) [drawing units]."""
+def find_true_goal(recording: "Recording", packed: "PackedWorld") -> "Point":
+    """Carry the goal from the quick drawing of a packed building to the building."""
     import numpy as np
 
-    records = [json.loads(line) for line in path.read_text().splitlines()]
-    return sketch.sketch_from_file(np.array([(record["x"], record["y"]) for record in records]))
+    from pilotage.evaluation.warp import read_warp
+
+    warp = read_warp(packed.quick.with_suffix(".json"), recording.sketch)
+    x, y = warp.world_from_sketch(np.array([recording.goal]))[0].tolist()
+    return x, y
 
 
-def story(
-    estimates: "Sequence[Estimate]", readings: "Sequence[Reading]", truth: "Array", sketch: "SchematicMap"
-) -> str:
-    """Say in plain words what happened, and whether it is true."""
-    import numpy as np
+def truth(recording: "Recording", packed: "PackedWorld") -> str:
+    """Say where in a packed building the robot truly ended."""
+    from pilotage.evaluation.rooms import read_world_rooms
 
-    from pilotage.localization import Status
-
-    odometry = np.array([reading.odometry.odom_from_base.position for reading in readings])
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(odometry, axis=0).T))])
-    positions = np.array([estimate.sketch_from_base.pose.position for estimate in estimates])
-    scales = np.array([estimate.sketch_from_base.scale for estimate in estimates])
-    errors = np.hypot(*(positions - truth).T) / scales
-    located = np.array([estimate.status is Status.LOCATED for estimate in estimates])
-    drive = f"The robot drove {way[-1]:.0f} m and took {len(readings)} scans."
-    if not located.any():
-        return f"{drive} It never found its place in the drawing."
-    first = int(np.argmax(located))
-    name = nearest_label(positions[-1], sketch)
-    end = (
-        f'At the end it says that it is in {estimates[-1].cell_id}, near the word "{name}", '
-        f"with confidence {estimates[-1].confidence:.2f}; that is {errors[-1]:.1f} m from where it truly is."
-        if located[-1]
-        else "At the end it is lost."
-    )
-    return (
-        f"{drive} After {way[first]:.0f} m it claimed a place, and held one for {located.mean():.0%} of the "
-        f"scans: half of these places are within {np.median(errors[located]):.1f} m of the true one. {end}"
-    )
-
-
-def nearest_label(position: "Array", sketch: "SchematicMap") -> str:
-    """Find the word of the drawing that stands nearest."""
-    return min(
-        sketch.labels, key=lambda label: math.dist(label.position, (float(position[0]), float(position[1])))
-    ).text
+    assert recording.true_goal is not None
+    end = recording.scenes[-1].world_from_base.position
+    (room,) = read_world_rooms(packed.folder / "rooms.geojson").names_at(end[None])
+    where = f'in the room called "{room}"' if room else "in no room"
+    return f"In truth it stands {where}, {math.dist(end, recording.true_goal):.1f} m from the marked place."

@@ -105,6 +105,8 @@ def open_stage(drive: Recording) -> tuple[Figure, Axes, Axes]:
     draw_labels(left, drive.sketch)
     draw_goal(left, drive.goal)
     draw_world(right, drive.world, linewidth=1.1)
+    if drive.true_goal is not None:
+        draw_goal(right, drive.true_goal)
     return figure, left, right
 
 

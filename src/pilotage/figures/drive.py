@@ -98,6 +98,8 @@ def draw_true(axes: Axes, drive: Recording) -> None:
     draw_stretches(axes, find_stretches(drive.steps, positions), STILL * size)
     draw_marks(axes, drive.times, positions, np.full(len(poses), fill_value=True))
     draw_ring(axes, positions[0])
+    if drive.true_goal is not None:
+        draw_goal(axes, drive.true_goal)
     style.draw_robot(axes, poses[-1], 0.03 * size)
 
 

@@ -22,6 +22,7 @@ class Recording:
     steps: Sequence[Step]
     scenes: Sequence[Scene]  # one for each step
     graph: CellGraph | None = None
+    true_goal: tuple[float, float] | None = None  # where the goal is in the world [m], if that is known
 
     def __post_init__(self) -> None:
         """Refuse a drive without a step, and steps and scenes that do not belong together."""
