@@ -15,7 +15,7 @@ from pilotage.perception import LaserScan, Odometry, Reading
 
 FEW = LocalizerSettings(  # enough to fall over
     atlas=AtlasSettings(range_table=RangeTableSettings(cells=80, directions=60)),
-    tracking=TrackingSettings(first_count=4000, count=2000),
+    tracking=TrackingSettings(first_count=4000, count=2000, least=1000),
 )
 HOUSE = '<rect x="{x}" y="{y}" width="60" height="40" fill="none" stroke="black"/>'
 
