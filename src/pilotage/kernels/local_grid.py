@@ -30,18 +30,18 @@ def mark(
     Where a beam `returned` something stands at its end. What stands there is never cleared by the same scan.
     """
     width, height = evidence.shape
+    passed = np.zeros((width, height), np.bool_)
     for k in range(len(ranges)):
         cosine, sine = math.cos(directions[k]), math.sin(directions[k])
-        last_i, last_j = -1, -1
         steps = int((ranges[k] - 0.7) * 2.0)
         for step in range(max(steps, 0)):
             i = math.floor(origin[0] + 0.5 * step * cosine)
             j = math.floor(origin[1] + 0.5 * step * sine)
             if not (0 <= i < width and 0 <= j < height):
                 break
-            if i == last_i and j == last_j:
+            if passed[i, j]:
                 continue
-            last_i, last_j = i, j
+            passed[i, j] = True
             if evidence[i, j] > 1:
                 evidence[i, j] -= 1
             else:

@@ -10,21 +10,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.localization.belief import Belief
+from pilotage.localization.belief import Belief, X, Y
+from pilotage.localization.estimate import Hypothesis
 
 
 @dataclass(frozen=True, slots=True)
 class IncumbentSettings:
     """What it takes to give a place up."""
 
-    odds: float = 15.0  # log-odds that full confidence is worth
-    most: float = 2.0  # log-odds that one look can add: for a while any place may be drawn wrong
+    odds: float = 40.0  # log-odds that full confidence is worth
+    most: float = 1.0  # log-odds that one look can add: for a while any place may be drawn wrong
     least: float = 1.0  # log-odds below which nothing is worth defending
+    reach: float = 4.0  # [m] from the place within which hypotheses are the incumbent's
     count: int = 10_000  # hypotheses
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("odds", "least"):
+        for name in ("odds", "least", "reach"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
         if not self.most > 0.0:
@@ -55,14 +57,22 @@ class Incumbent:
         return self.lead >= self.stake
 
 
-def first_incumbent(
-    belief: Belief, confidence: float, settings: IncumbentSettings, rng: np.random.Generator
+def incumbent_at(
+    place: Hypothesis,
+    belief: Belief,
+    confidence: float,
+    settings: IncumbentSettings,
+    rng: np.random.Generator,
 ) -> Incumbent | None:
-    """Make belief the incumbent's if the robot is confident enough for there to be something to defend."""
+    """Defend what belief holds about a place, if the robot is confident enough; None if not."""
     stake = settings.odds * confidence
     if stake < settings.least:
         return None
-    return Incumbent(belief.resampled(settings.count, rng), stake)
+    at, scale = place.sketch_from_base.pose, place.sketch_from_base.scale
+    away = np.hypot(belief.states[X] - at.x, belief.states[Y] - at.y)
+    members = away <= settings.reach * scale
+    own = Belief(belief.states[:, members], belief.log_weights[members])
+    return Incumbent(own.resampled(settings.count, rng), stake)
 
 
 def gain_of(belief: tuple[Belief, Belief], incumbent: tuple[Belief, Belief]) -> float:

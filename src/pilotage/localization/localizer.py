@@ -27,7 +27,7 @@ from pilotage.localization.estimate import (
     share_at,
     steady_confidence,
 )
-from pilotage.localization.incumbent import Incumbent, IncumbentSettings, first_incumbent, gain_of
+from pilotage.localization.incumbent import Incumbent, IncumbentSettings, gain_of, incumbent_at
 from pilotage.localization.placement import Placement, place_at
 from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
 from pilotage.localization.registration import RegistrationSettings, register
@@ -103,6 +103,8 @@ class Localizer:
         self._placement: Placement | None = None
         self._search_due = False
         self._incumbent: Incumbent | None = None  # whose belief is believed, if not this one
+        if start is not None:
+            self._incumbent = Incumbent(self.belief, self.settings.incumbent.odds)
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
@@ -186,8 +188,8 @@ class Localizer:
         at = places[0].sketch_from_base.pose
         self._placement = place_at(believed, (at.x, at.y), settings.jump)
         if self._incumbent is None:
-            self._incumbent = first_incumbent(
-                self.belief, self._confidence, self.settings.incumbent, self._rng
+            self._incumbent = incumbent_at(
+                places[0], self.belief, self._confidence, self.settings.incumbent, self._rng
             )
 
     def _search(self) -> None:

@@ -10,7 +10,7 @@ from pilotage.localization import Estimate, Localizer, Status
 from pilotage.maps import NotEnclosedError, RouteError, RouteSettings, check_place
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
-from pilotage.navigation.steering import STILL, SteeringSettings, steer
+from pilotage.navigation.steering import SLOW, STILL, SteeringSettings, brake, steer
 from pilotage.navigation.step import Behavior, Outcome, Step
 from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
 from pilotage.perception import LaserScan, Odometry
@@ -76,7 +76,10 @@ class Navigator:
         self.surroundings = Surroundings.unseen(self.settings.surroundings)
         self.trail = np.zeros((1, 2))  # where the robot was, in odom [m]
         self._perceived: Odometry | None = None
+        self._last: Odometry | None = None
+        self._moving = STILL
         self._estimate: Estimate | None = None
+        self._cell_belief = 0.0
         self._began = 0.0
         self._plan: Plan | None = None
         self._planned = -math.inf
@@ -95,6 +98,8 @@ class Navigator:
         """Take one scan in, give one command out."""
         estimate = self._localize(scan, odometry)
         odom_from_base = self._odom_from_base(odometry)
+        self._moving = twist_between(self._last, odometry)
+        self._last = odometry
         self.surroundings = self.surroundings.seen(scan, odom_from_base)
         if np.hypot(*(self.trail[-1] - odom_from_base.position)) > 0.5:
             self.trail = np.vstack([self.trail, odom_from_base.position])
@@ -125,6 +130,7 @@ class Navigator:
         before = self._estimate
         self._estimate = self.localizer.update(scan, odometry)
         self._perceived = odometry
+        self._cell_belief = self.localizer.belief_in(self._estimate.cell_id)
         if before and before.status is Status.LOCATED and self._estimate.status is Status.LOST:
             self._times_lost += 1
         return self._estimate
@@ -236,15 +242,17 @@ class Navigator:
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
         """Say what the wheels shall do."""
         if self._outcome is not None:
-            return STILL, Behavior.REST
+            return brake(self._moving), Behavior.REST
         if self._plan is None:
+            if self._moving.linear > SLOW:
+                return brake(self._moving), Behavior.LOOK_AROUND
             return Twist(0.0, 0.7 * self.settings.steering.turn_rate), Behavior.LOOK_AROUND
         base_from_odom = self.surroundings.odom_from_base.inverse()
         way = base_from_odom @ self._plan.way
         passed = int(np.hypot(way[:, 0], way[:, 1]).argmin())
         remembered = base_from_odom @ self.surroundings.things
         things = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < 0.1]])
-        command = steer(way[passed:], things, self.settings.radius, self.settings.steering)
+        command = steer(way[passed:], things, self.settings.radius, self.settings.steering, self._moving)
         waits = command.linear == 0.0 and abs(command.angular) < 0.05
         return command, Behavior.WAIT if waits else self._plan.behavior
 
@@ -262,7 +270,7 @@ class Navigator:
             command,
             behavior,
             estimate,
-            cell_belief=self.localizer.belief_in(estimate.cell_id),
+            cell_belief=self._cell_belief,
             alignment_error=self.localizer.placement.spread,
             next_cell_id=leg.next_cell_id if leg else "",
             gateway_id=leg.gateway_id if leg else "",
@@ -273,3 +281,12 @@ class Navigator:
             outcome=self._outcome,
             reason=self._reason,
         )
+
+
+def twist_between(before: Odometry | None, now: Odometry) -> Twist:
+    """Tell how the robot moves from what the wheels said last and say now."""
+    if before is None or now.stamp <= before.stamp:
+        return STILL
+    motion = before.odom_from_base.inverse() @ now.odom_from_base
+    lasted = now.stamp - before.stamp
+    return Twist(math.copysign(math.hypot(motion.x, motion.y), motion.x) / lasted, motion.theta / lasted)

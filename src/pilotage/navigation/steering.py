@@ -34,27 +34,38 @@ class SteeringSettings:
 SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
 """Of the speed, and of the distance to steer for, so much is tried, in order."""
 
+SLOW = 0.02
+"""[m/s] from which on a robot counts as moving: wheels slip."""
+
 STILL = Twist(0.0, 0.0)
 
 
-def steer(way: Array, things: Array, radius: float, settings: SteeringSettings) -> Twist:
+def steer(
+    way: Array, things: Array, radius: float, settings: SteeringSettings, moving: Twist = STILL
+) -> Twist:
     """Follow a way (k, 2) among things (n, 2), both in the robot's frame [m], safely for a disc of `radius`.
 
-    Stands still, or turns on the spot, where moving on would not be safe.
+    `moving` is how the robot moves now. Stands still, or turns on the spot, where moving on would not be
+    safe; one that moves brakes on its arc before it turns on the spot, for that arc was found free.
     """
     ahead = point_ahead(way, things, radius + settings.clearance, settings.look_ahead)
     bearing = math.atan2(ahead[1], ahead[0])
     angular = max(-settings.turn_rate, min(settings.turn_rate, settings.gain * bearing))
-    if abs(bearing) > settings.pivot:
-        return Twist(0.0, angular)
-    left = float(np.hypot(*(way[-1] - way[0]))) if len(way) > 1 else 0.0
-    fastest = settings.speed * math.cos(bearing) ** 2
-    fastest = min(fastest, math.sqrt(2.0 * settings.braking * max(left, 0.01)))
-    for share in SHARES:
-        linear = share * fastest
-        if is_safe(Twist(linear, share * angular), things, radius, settings):
-            return Twist(linear, share * angular)
-    return Twist(0.0, angular)
+    if abs(bearing) <= settings.pivot:
+        left = float(np.hypot(*(way[-1] - way[0])))
+        fastest = min(settings.speed * math.cos(bearing) ** 2, math.sqrt(2.0 * settings.braking * left))
+        soonest = moving.linear - settings.braking * settings.delay / 2.0  # no robot slows down at once
+        for share in SHARES:
+            command = Twist(share * fastest, share * angular)
+            braking = Twist(max(command.linear, soonest), command.angular)
+            if is_safe(braking, things, radius, settings):
+                return command
+    return Twist(0.0, moving.angular if moving.linear > SLOW else angular)
+
+
+def brake(moving: Twist) -> Twist:
+    """Stop on the arc that the robot is on: it was found free."""
+    return Twist(0.0, moving.angular if moving.linear > SLOW else 0.0)
 
 
 def point_ahead(way: Array, things: Array, room: float, distance: float) -> Array:
@@ -77,17 +88,20 @@ def is_safe(command: Twist, things: Array, radius: float, settings: SteeringSett
 
     One that is too near to something already may move on as long as it comes no nearer.
     """
-    stopping = command.linear**2 / (2.0 * settings.braking) + command.linear * settings.delay
-    near = things[np.hypot(things[:, 0], things[:, 1]) < stopping + radius + settings.clearance + 0.1]
-    if len(near) == 0:
-        return True
-    count = max(2, math.ceil(stopping / 0.04))
-    ways = np.linspace(0.0, stopping, count)[1:]
-    turns = ways * (command.angular / max(command.linear, 1e-6))
-    # on an arc; sin(x) / x and (1 - cos(x)) / x, for x = 0 too
-    along = ways * np.sinc(turns / math.pi)
-    aside = ways * np.sin(turns / 2.0) * np.sinc(turns / math.tau)
-    gaps = np.hypot(near[:, :1] - along, near[:, 1:] - aside)
-    now = np.hypot(near[:, 0], near[:, 1])
-    needed = np.minimum(radius + settings.clearance, now - 1e-3)
-    return bool((gaps >= needed[:, np.newaxis]).all())
+    path = braking_path(command, settings)
+    reach = float(np.hypot(*path[-1])) + radius + settings.clearance
+    near = things[np.hypot(things[:, 0], things[:, 1]) < 2.0 * reach]
+    gaps = np.hypot(near[:, :1] - path[:, 0], near[:, 1:] - path[:, 1])
+    needed = np.minimum(radius + settings.clearance, np.hypot(near[:, 0], near[:, 1]))
+    return bool((gaps >= needed[:, np.newaxis] - 1e-9).all())
+
+
+def braking_path(command: Twist, settings: SteeringSettings) -> Array:
+    """List where a robot comes that obeys for the delay and then brakes, still turning, (k, 2) [m]."""
+    speed, braking = command.linear, settings.braking
+    until = settings.delay + speed / braking
+    times = np.linspace(0.0, until, max(3, math.ceil(until / 0.05)) + 1)
+    speeds = np.clip(speed - braking * np.maximum(times - settings.delay, 0.0), 0.0, speed)
+    ways = (speeds[1:] + speeds[:-1]) / 2.0 * np.diff(times)
+    headings = command.angular * (times[1:] + times[:-1]) / 2.0
+    return np.column_stack([np.cumsum(ways * np.cos(headings)), np.cumsum(ways * np.sin(headings))])

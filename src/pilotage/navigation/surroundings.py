@@ -4,7 +4,7 @@ A few metres, in the frame of odometry, that move along with the robot and forge
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -70,10 +70,6 @@ class Surroundings:
         origin = (odom_from_laser.x / cell - corner[0], odom_from_laser.y / cell - corner[1])
         mark(evidence, origin, *densified(odom_from_laser.theta + scan.directions, ranges / cell, returned))
         return Surroundings(evidence, corner, odom_from_base, self.settings)
-
-    def moved(self, odom_from_base: Pose2) -> "Surroundings":
-        """Move the robot, nothing being seen."""
-        return replace(self, odom_from_base=odom_from_base)
 
     def _recentered(self, odom_from_base: Pose2) -> tuple[NDArray[np.int8], tuple[int, int]]:
         """Copy the evidence, shifted so that the robot is in the middle again if it left it by far."""
@@ -188,11 +184,15 @@ def densified(
     directions: Array, ranges: Array, returned: NDArray[np.bool_]
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Think beams between neighboring ones, each as long as the shorter of the two."""
+    steps, shorter = np.diff(directions), np.minimum(ranges[:-1], ranges[1:])
+    gap = math.tau - abs(directions[-1] - directions[0])
+    if len(steps) and 0.0 < gap < 1.5 * abs(steps[0]):  # all around: the last beam is beside the first
+        steps = np.append(steps, math.copysign(gap, steps[0]))
+        shorter = np.append(shorter, min(ranges[-1], ranges[0]))
     shares = np.arange(1, BETWEEN + 1)[:, np.newaxis] / (BETWEEN + 1)
-    between = directions[:-1] + shares * np.diff(directions)
-    shorter = np.broadcast_to(np.minimum(ranges[:-1], ranges[1:]), between.shape)
+    between = directions[: len(steps)] + shares * steps
     return (
         np.concatenate([directions, between.ravel()]),
-        np.concatenate([ranges, shorter.ravel()]),
+        np.concatenate([ranges, np.broadcast_to(shorter, between.shape).ravel()]),
         np.concatenate([returned, np.zeros(between.size, dtype=np.bool_)]),
     )

@@ -31,7 +31,9 @@ class SimulatorSettings:
     """The robot, its laser, its wheels, and how often it gets a command."""
 
     body: BodySettings = field(default_factory=BodySettings)
-    laser: LaserSettings = field(default_factory=LaserSettings)
+    laser: LaserSettings = field(
+        default_factory=lambda: LaserSettings(beams=360, field_of_view=math.radians(359.0))
+    )
     odometry: OdometrySettings = field(default_factory=OdometrySettings)
     time_step: float = 0.1  # [s]
 
