@@ -1,0 +1,222 @@
+"""From a way to a command, among things."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pilotage.geometry import Pose2, Twist
+from pilotage.navigation.steering import SteeringSettings, brake, steer
+from pilotage.simulation import BodySettings
+from pilotage.simulation.body import rolled
+from strategies import angles
+
+BODY, SETTINGS = BodySettings(), SteeringSettings()
+TIME_STEP = 0.1
+NOTHING = np.empty((0, 2))
+AHEAD = np.column_stack([np.linspace(0.0, 5.0, 101), np.zeros(101)])
+STILL = Twist(0.0, 0.0)
+
+
+def along(*corners):
+    """Points every 4 cm along a way or a wall."""
+    pieces = []
+    for start, end in itertools.pairwise(np.array(corners, dtype=float)):
+        count = max(2, math.ceil(np.hypot(*(end - start)) / 0.04))
+        pieces.append(start + np.linspace(0.0, 1.0, count)[:, np.newaxis] * (end - start))
+    return np.vstack(pieces)
+
+
+def obey(way, things, start, *, seconds, moving=STILL, how=SETTINGS):
+    """Drive along a way among things, both in the world; poses and twists ten times a second."""
+    pose, now = start, moving
+    for _ in range(round(seconds / TIME_STEP)):
+        in_base = pose.inverse() @ way
+        passed = int(np.hypot(*in_base.T).argmin())
+        command = steer(in_base[passed:], pose.inverse() @ things, BODY.radius, how, now)
+        now = BODY.obeyed(now, command, TIME_STEP)
+        yield pose, now
+        pose = pose @ rolled(now, TIME_STEP)
+    yield pose, now
+
+
+def stop(start, moving):
+    """Brake until the robot stands."""
+    pose, now = start, moving
+    while now.linear > 0.0:
+        now = BODY.obeyed(now, brake(now), TIME_STEP)
+        yield pose, now
+        pose = pose @ rolled(now, TIME_STEP)
+    yield pose, now
+
+
+def room_between(moments, things):
+    """Measure from the body to the nearest thing at any time of a drive [m]."""
+    gaps = []
+    for pose, now in moments:
+        gaps += [
+            np.hypot(*(things - (pose @ rolled(now, share * TIME_STEP)).position).T).min()
+            for share in (0.0, 0.25, 0.5, 0.75)
+        ]
+    return min(gaps) - BODY.radius
+
+
+def somewhere(rng, *shape):
+    """Draw places about the robot."""
+    return rng.uniform((-2.0, -2.0), (3.0, 2.0), (*shape, 2))
+
+
+@st.composite
+def scenes(draw):
+    """Things about a robot that is clear of all of them: lone posts, walls, a corridor; and a generator."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    walls = [along(*somewhere(rng, 2)) for _ in range(draw(st.integers(0, 4)))]
+    things = np.vstack([somewhere(rng, draw(st.integers(1, 25))), *walls])
+    if draw(st.booleans()):
+        half = draw(st.floats(0.24, 0.8))
+        things = np.vstack([things, along((-1, half), (4, half)), along((-1, -half), (4, -half))])
+    clear = np.hypot(*things.T) > BODY.radius + SETTINGS.clearance
+    return np.vstack([things[clear], (9.0, 9.0)]), rng
+
+
+@settings(max_examples=250)
+@given(scenes(), st.lists(st.floats(0.2, 2.5), min_size=1, max_size=4))
+def test_whatever_the_way_a_robot_that_obeys_stays_clear_of_all_things(scene, times):
+    things, rng = scene
+    pose, now = Pose2.identity(), STILL
+    for seconds in times:
+        way = along(pose.position, *somewhere(rng, rng.integers(1, 4)))
+        moments = list(obey(way, things, pose, seconds=seconds, moving=now))
+        assert SETTINGS.clearance - 0.004 < room_between(moments, things)
+        pose, now = moments[-1]
+        assert SETTINGS.clearance - 0.004 < room_between(stop(pose, now), things)
+
+
+@pytest.mark.parametrize("half", [0.26, 0.35, 0.6])
+@pytest.mark.parametrize("turn", [-2.5, -1.0, 1.6, 3.0])
+@pytest.mark.parametrize("seconds", [1.2, 2.7])
+def test_a_robot_at_speed_that_is_sent_back_touches_no_corridor(half, turn, seconds):
+    things = np.vstack([along((-1, half), (8, half)), along((-1, -half), (8, -half))])
+    *_, (pose, now) = obey(along((0, 0), (8, 0)), things, Pose2.identity(), seconds=seconds)
+    back = along(pose.position, pose.position + 2.0 * np.array([math.cos(turn), math.sin(turn)]))
+    moments = list(obey(back, things, pose, seconds=3.0, moving=now))
+
+    assert 0.1 < now.linear
+    assert SETTINGS.clearance - 0.004 < room_between(moments, things)
+
+
+@given(angles)
+def test_in_the_open_the_end_of_the_way_is_come_to_from_any_heading(heading):
+    *_, (pose, now) = obey(along((0, 0), (3, 0)), NOTHING, Pose2(0.0, 0.0, heading), seconds=12.0)
+
+    assert 0.2 > math.hypot(pose.x - 3.0, pose.y)
+    assert 0.1 > now.linear
+
+
+@pytest.mark.parametrize("half", [0.3, 0.4, 0.6])
+def test_the_robot_comes_around_a_corner(half):
+    inner = along((-1, half), (2 - half, half), (2 - half, 3))
+    outer = along((-1, -half), (2 + half, -half), (2 + half, 3))
+    way = along((0, 0), (2, 0), (2, 2.5))
+    *_, (pose, _) = obey(way, np.vstack([inner, outer]), Pose2.identity(), seconds=20.0)
+
+    assert 0.3 > math.hypot(pose.x - 2.0, pose.y - 2.5)
+
+
+@given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0), st.booleans())
+def test_commands_are_within_limits_and_never_lead_back(x, y, blocked):
+    things = np.array([[0.5, 0.1]]) if blocked else NOTHING
+    command = steer(along((0, 0), (x, y)), things, BODY.radius, SETTINGS)
+
+    assert 0.0 <= command.linear <= SETTINGS.speed
+    assert abs(command.angular) <= SETTINGS.turn_rate
+
+
+@given(scenes())
+def test_what_is_mirrored_is_steered_mirrored(scene):
+    things, rng = scene
+    way = along((0.0, 0.0), *somewhere(rng, 3))
+    command = steer(way, things, BODY.radius, SETTINGS)
+    mirrored = steer(way * (1.0, -1.0), things * (1.0, -1.0), BODY.radius, SETTINGS)
+
+    assert pytest.approx(command.linear) == mirrored.linear
+    assert pytest.approx(-command.angular) == mirrored.angular
+
+
+@pytest.mark.parametrize("bearing", [1.7, 2.5, 3.1, -1.7, -2.5, -3.1])
+def test_for_what_lies_behind_the_robot_turns_on_the_spot_the_shorter_way(bearing):
+    command = steer(
+        along((0, 0), (3 * math.cos(bearing), 3 * math.sin(bearing))), NOTHING, BODY.radius, SETTINGS
+    )
+
+    assert 0.0 == command.linear
+    assert 0.0 < command.angular * bearing
+
+
+def test_a_robot_that_moves_stops_on_its_arc_before_it_turns_back():
+    moving = Twist(0.6, -0.4)
+    command = steer(-AHEAD, NOTHING, BODY.radius, SETTINGS, moving)
+
+    assert Twist(0.0, -0.4) == command == brake(moving)
+
+
+def test_a_robot_that_stands_is_braked_without_turning():
+    assert Twist(0.0, 0.0) == brake(STILL) == brake(Twist(0.0, 0.5))
+
+
+@pytest.mark.parametrize("away", [0.231, 0.25])
+def test_before_a_wall_the_robot_stands_still(away):
+    wall = along((away, -2), (away, 2))
+
+    assert 0.0 == steer(AHEAD, wall, BODY.radius, SETTINGS).linear
+
+
+def test_the_nearer_a_wall_the_slower():
+    speeds = [
+        steer(AHEAD, along((away, -2), (away, 2)), BODY.radius, SETTINGS).linear
+        for away in (0.3, 0.5, 0.8, 3.0)
+    ]
+
+    assert sorted(speeds) == speeds
+    assert 0.0 < speeds[1] < speeds[3] == SETTINGS.speed
+
+
+def test_what_is_behind_does_not_stop_a_robot_that_drives_off():
+    wall = along((-0.21, -2), (-0.21, 2))
+
+    assert SETTINGS.speed == steer(AHEAD, wall, BODY.radius, SETTINGS).linear
+
+
+@pytest.mark.parametrize("heading", [0.0, 1.5, 3.0, -1.5])
+def test_a_robot_that_is_too_near_to_a_wall_drives_off_it_and_comes_no_nearer(heading):
+    too_near = BODY.radius + SETTINGS.clearance / 2.0
+    wall = along((-1, too_near), (3, too_near))
+
+    start, slowly = Pose2(0.0, 0.0, heading), SteeringSettings(speed=0.25)
+    moments = list(obey(along((0, 0), (1, -1)), wall, start, seconds=15.0, how=slowly))
+
+    assert 0.2 > np.hypot(*(moments[-1][0].position - (1.0, -1.0)))
+    assert too_near - 1e-6 < room_between(moments, wall) + BODY.radius
+
+
+@pytest.mark.parametrize("left", [0.0, 0.05, 0.3])
+def test_the_robot_can_stop_at_the_end_of_its_way(left):
+    way = np.array([[0.0, 0.0]]) if left == 0.0 else along((0, 0), (left, 0))
+    command = steer(way, NOTHING, BODY.radius, SETTINGS)
+
+    assert command.linear**2 / (2.0 * SETTINGS.braking) <= left + 1e-9
+
+
+@pytest.mark.parametrize("name", ["speed", "turn_rate", "braking", "look_ahead", "pivot", "gain"])
+def test_what_moves_the_robot_is_positive(name):
+    with pytest.raises(ValueError, match=f"{name} must be > 0"):
+        SteeringSettings(**{name: 0.0})
+
+
+@pytest.mark.parametrize("name", ["delay", "clearance"])
+def test_what_is_kept_free_is_not_negative(name):
+    with pytest.raises(ValueError, match=f"{name} must be >= 0"):
+        SteeringSettings(**{name: math.nan})
