@@ -20,14 +20,15 @@ from PIL import Image
 from pilotage import demo
 from pilotage.geometry import Array, Polyline, Twist
 from pilotage.io import open_world
-from pilotage.simulation import Door, Person, Simulator, SimulatorSettings, World, find_start
+from pilotage.simulation import Door, LaserSettings, Person, Simulator, SimulatorSettings, World, find_start
 
 PIXEL = 0.05  # [m]
 SIDE = 2000  # [pixels]
 ROOM = 100  # [pixels]
 SPECKS = 6000
 NEAR = 0.7  # [m] at which the robot turns away
-RADIUS = SimulatorSettings().body.radius
+SETTINGS = SimulatorSettings(laser=LaserSettings(beams=181))
+RADIUS = SETTINGS.body.radius
 
 
 def main() -> None:
@@ -113,7 +114,7 @@ def wander(world: World, seconds: float) -> tuple[int, float, int]:
         How many steps were made, in how many seconds, and how often the robot touched something.
     """
     simulator = Simulator(
-        world, find_start(world, RADIUS, np.random.default_rng(0)), np.random.default_rng(3)
+        world, find_start(world, RADIUS, np.random.default_rng(0)), np.random.default_rng(3), SETTINGS
     )
     began, steps = time.process_time(), 0
     while simulator.stamp < seconds:
