@@ -1,0 +1,205 @@
+"""Where to drive when the place is not known."""
+
+import math
+
+import numpy as np
+import pytest
+import scipy.ndimage
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from buildings import flat, scan_at
+from pilotage.geometry import Polyline, Pose2, Similarity2
+from pilotage.localization import Hypothesis
+from pilotage.maps import AtlasSettings, DecompositionSettings, RangeTableSettings, SchematicMap, build_atlas
+from pilotage.navigation.exploring import (
+    ExploringSettings,
+    box_mean,
+    choose_rim,
+    differences,
+    farthest,
+    find_rims,
+)
+from pilotage.navigation.surroundings import Surroundings, SurroundingsSettings
+from strategies import angles
+
+SETTINGS = ExploringSettings()
+RADIUS = 0.2
+HERE = Pose2.identity()
+COARSE = AtlasSettings(
+    range_table=RangeTableSettings(cells=60, directions=60), decomposition=DecompositionSettings()
+)
+CORRIDOR = (Polyline.through([(-7, -1), (7, -1)]), Polyline.through([(-7, 1), (7, 1)]))
+"""Open at both ends [m]."""
+ALL_AROUND = {"beams": 720, "fov": math.tau * 719 / 720}
+
+
+@pytest.fixture(scope="module")
+def atlas():
+    return build_atlas(flat(), COARSE)
+
+
+def reach_in(walls, pose=HERE, size=9.0, **laser):
+    """Look once, and see where one can go."""
+    surroundings = Surroundings.unseen(SurroundingsSettings(size=size))
+    return surroundings.seen(scan_at(pose, walls=walls, **laser), pose).reach(RADIUS)
+
+
+def place(x, y, heading=0.0, *, scale=1.0, probability=0.5):
+    return Hypothesis("", Similarity2(scale, Pose2(x, y, heading)), probability)
+
+
+@given(st.integers(1, 30), st.integers(1, 30), st.integers(1, 6), st.integers(0, 2**32 - 1))
+def test_means_over_squares_are_those_of_a_plain_filter(width, height, half, seed):
+    mask = np.random.default_rng(seed).random((width, height)) < 0.5
+
+    expected = scipy.ndimage.uniform_filter(mask.astype(float), 2 * half + 1, mode="constant")
+    np.testing.assert_allclose(expected, box_mean(mask, half), atol=1e-9)
+
+
+def test_rims_are_reachable_places_beside_much_that_was_not_seen():
+    reach = reach_in(CORRIDOR)
+    rims = find_rims(reach, SETTINGS)
+
+    unseen = reach.surroundings.middles(np.argwhere(reach.surroundings.evidence == 0))
+    tree = shapely.STRtree(shapely.points(unseen))
+    assert len(rims) > 0
+    for point in reach.points[rims]:
+        around = tree.query(shapely.Point(point), "dwithin", SETTINGS.around * math.sqrt(2.0))
+        assert len(around) > 0.25 * (2.0 * SETTINGS.around / 0.05) ** 2
+
+
+def test_of_each_block_one_place_is_considered():
+    reach = reach_in(CORRIDOR)
+    rims = find_rims(reach, SETTINGS)
+
+    blocks = np.floor(reach.points[rims] / SETTINGS.block)
+    assert len(rims) == len(np.unique(blocks, axis=0))
+
+
+def test_where_all_was_seen_there_is_nowhere_to_explore(atlas):
+    hall = Polyline.through([(-5, -5), (5, -5), (5, 5), (-5, 5)], closed=True)
+    reach = reach_in((hall,), size=4.0, **ALL_AROUND)
+
+    assert 0 == len(find_rims(reach, SETTINGS))
+    assert choose_rim(reach, np.zeros((1, 2)), (), atlas, SETTINGS) is None
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_the_robot_drives_to_where_it_was_not(atlas, side):
+    reach = reach_in(CORRIDOR, **ALL_AROUND)
+    trail = np.column_stack([np.linspace(0.0, side * 7.0, 30), np.zeros(30)])
+
+    chosen = choose_rim(reach, trail, (), atlas, SETTINGS)
+
+    assert side * reach.points[chosen, 0] < -1.0
+
+
+@given(angles)
+def test_the_robot_rather_goes_on_than_turns_round(atlas, heading):
+    pose = Pose2(0.0, 0.0, heading)
+    reach = reach_in(CORRIDOR, pose, **ALL_AROUND)
+
+    chosen = choose_rim(reach, np.zeros((1, 2)), (), atlas, SETTINGS)
+
+    ahead = reach.points[chosen] @ (math.cos(heading), math.sin(heading))
+    assert ahead > 0.0 or abs(math.cos(heading)) < 0.5
+
+
+def test_one_place_alone_differs_from_nothing(atlas):
+    points = np.array([[0.0, 0.0], [1.0, 0.5]])
+
+    assert [0.0, 0.0] == differences(points, (), atlas).tolist()
+    assert [0.0, 0.0] == differences(points, (place(1.5, 5.0),), atlas).tolist()
+
+
+def test_places_that_look_alike_do_not_differ():
+    square = SchematicMap((Polyline.through([(-2, -2), (2, -2), (2, 2), (-2, 2)], closed=True),))
+    alike = build_atlas(square, AtlasSettings(range_table=RangeTableSettings(cells=41, directions=60)))
+    four = tuple(place(0.0, 0.0, quarter * math.pi / 2.0) for quarter in range(4))
+    points = np.array([[0.0, 0.0], [1.0, 0.3], [-0.7, 1.2]])
+
+    one_off = (place(0.0, 0.0), place(1.2, 0.0))
+    assert differences(points, four, alike).max() < 0.05
+    assert differences(points[:1], one_off, alike)[0] > 0.15
+
+
+def test_places_differ_most_where_they_would_look_most_different(atlas):
+    # Both stand in the same room and look the same way, but for what lies around the corner.
+    here, there = place(1.5, 5.0, -math.pi / 2), place(1.5, 6.0, -math.pi / 2)
+    far_from_corner, at_corner = np.array([[0.0, 0.0]]), np.array([[2.5, 0.0]])
+
+    near, far = (differences(point, (here, there), atlas)[0] for point in (at_corner, far_from_corner))
+    assert near > far
+
+
+def test_a_place_that_is_hardly_possible_hardly_counts(atlas):
+    points = np.array([[0.5, 0.0]])
+    first, second = (1.5, 5.0), (8.0, 5.0)
+    even = differences(points, (place(*first), place(*second)), atlas)
+    rare = differences(points, (place(*first, probability=0.98), place(*second, probability=0.02)), atlas)
+
+    assert 0.0 < rare[0] < 0.5 * even[0]
+
+
+def test_places_of_different_scale_see_the_same_where_that_explains_it(atlas):
+    # Twice as large a scale, and so half as far in metres: the ranges differ by log 2 everywhere.
+    points = np.array([[0.0, 0.0]])
+    differ = differences(points, (place(1.5, 5.0), place(1.5, 5.0, scale=2.0)), atlas)
+
+    assert math.log(2.0) / 2.0 == pytest.approx(differ[0], abs=1e-6)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_the_robot_drives_to_what_tells_places_apart(side):
+    # Only at one end does the drawn corridor widen; which way the robot looks along it is not known.
+    corners = [(-7, -1), (5, -1), (5, -5), (9, -5), (9, 5), (5, 5), (5, 1), (-7, 1)]
+    drawn = Polyline.through([(side * x, y) for x, y in corners], closed=True)
+    atlas = build_atlas(SchematicMap((drawn,)), COARSE)
+    places = (place(0.0, 0.0), place(0.0, 0.0, math.pi))
+    points = np.array([[4.0, 0.0], [-4.0, 0.0], [0.0, 0.0]])
+
+    ahead, behind, here = differences(points, places, atlas)
+    assert ahead == pytest.approx(behind, rel=0.1)
+    assert ahead > 1.5 * here
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_of_two_open_ends_the_robot_chooses_the_one_that_tells_places_apart(side):
+    corners = [(-40, -1), (5, -1), (5, -5), (9, -5), (9, 5), (5, 5), (5, 1), (-40, 1)]
+    drawn = Polyline.through([(side * x, y) for x, y in corners], closed=True)
+    atlas = build_atlas(SchematicMap((drawn,)), COARSE)
+    across = math.pi / 2.0  # so that no end is nearer by turning
+    reach = reach_in(CORRIDOR, Pose2(0.0, 0.0, across), **ALL_AROUND)
+
+    chosen = choose_rim(
+        reach, np.zeros((1, 2)), (place(0.0, 0.0, across), place(side * 1.5, 0.0, across)), atlas, SETTINGS
+    )
+
+    assert side * reach.points[chosen, 0] > 1.0
+
+
+def test_places_differ_as_much_on_a_larger_drawing():
+    points = np.array([[0.0, 0.0], [1.0, 0.3], [2.0, -1.0]])
+    told = []
+    for scale in (1.0, 30.0):
+        atlas = build_atlas(flat(scale), COARSE)
+        places = [place(scale * x, scale * y, scale=scale) for x, y in ((1.5, 5.0), (7.5, 5.0))]
+        told.append(differences(points, tuple(places), atlas))
+
+    np.testing.assert_allclose(*told, rtol=0.05)
+
+
+def test_the_farthest_place_is_far_from_the_trail():
+    reach = reach_in(CORRIDOR, **ALL_AROUND)
+    trail = np.column_stack([np.linspace(0.0, 3.0, 15), np.zeros(15)])
+
+    x, _ = reach.points[farthest(reach, trail)]
+    assert x == pytest.approx(reach.points[:, 0].min(), abs=0.2)
+
+
+@pytest.mark.parametrize("name", ["around", "block", "new_beyond"])
+def test_lengths_are_positive(name):
+    with pytest.raises(ValueError, match=f"{name} must be > 0 m"):
+        ExploringSettings(**{name: 0.0})
