@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-import scipy.ndimage
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
@@ -51,11 +50,11 @@ def place(x, y, heading=0.0, *, scale=1.0, probability=0.5):
 
 
 @given(st.integers(1, 30), st.integers(1, 30), st.integers(1, 6), st.integers(0, 2**32 - 1))
-def test_means_over_squares_are_those_of_a_plain_filter(width, height, half, seed):
+def test_means_over_squares_are_plain_means(width, height, half, seed):
     mask = np.random.default_rng(seed).random((width, height)) < 0.5
 
-    expected = scipy.ndimage.uniform_filter(mask.astype(float), 2 * half + 1, mode="constant")
-    np.testing.assert_allclose(expected, box_mean(mask, half), atol=1e-9)
+    windows = np.lib.stride_tricks.sliding_window_view(np.pad(mask, half), (2 * half + 1, 2 * half + 1))
+    np.testing.assert_allclose(windows.mean(axis=(2, 3)), box_mean(mask, half), atol=1e-9)
 
 
 def test_rims_are_reachable_places_beside_much_that_was_not_seen():
