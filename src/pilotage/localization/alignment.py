@@ -42,7 +42,6 @@ class AlignmentSettings:
     wall_penalty: float = 3.0  # log-odds of having walked through a drawn wall between two looks
     wall_tolerance: float = 0.2  # log of how much longer than the way to the wall the way between may be
     trust: float = 0.1  # share of belief that a fresh alignment replaces when it explains the views as well
-    odds: float = 6.0  # log-odds by which it must explain them better where the robot is sure of its place
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
@@ -107,16 +106,14 @@ def trust_in(
     views: tuple[View, ...],
     model: VisibilityModel,
     settings: AlignmentSettings,
-    *,
-    confidence: float = 0.0,
 ) -> float:
     """Return the share of belief that a fresh alignment should replace, given a sample (6, n) of belief.
 
-    All of `trust` if it explains the views as well, and better where the robot was confident; else less: so
-    belief that is right is not diluted, and one that has gone astray is soon replaced.
+    All of `trust` if it explains the views as well, else less: so belief that is right is not diluted, and
+    one that has gone astray is soon replaced.
     """
     scores = score_views(sample, choose_views(views, settings.looks), model, settings)
-    gain = _log_mean(fresh.log_weights) - _log_mean(scores) - settings.odds * confidence
+    gain = _log_mean(fresh.log_weights) - _log_mean(scores)
     return settings.trust * math.exp(min(gain, 0.0))
 
 

@@ -11,6 +11,9 @@ from pilotage.geometry import Array, Similarity2
 from pilotage.localization.belief import LOG_SCALE, Belief, X, Y, mean_state, similarity_of
 from pilotage.maps import Atlas
 
+TRACE = 1e-3
+"""Share of belief in a block and its neighbors from which on it is held possible at all."""
+
 
 class Status(Enum):
     """Whether the robot claims to know where it is."""
@@ -48,6 +51,7 @@ class EstimateSettings:
     hypotheses: int = 5  # how many places are told, at most
     least: float = 0.02  # probability of a place that is worth telling
     confirmation: float = 4.0  # [m] of way on which confidence makes up two thirds of what it lacks
+    fading: float = 40.0  # [m] on which a defended place loses as much while belief is with another
     jump: float = 2.0  # [m] beyond which it is another place that became the most probable
     located: float = 0.5  # confidence from which on the robot claims to be located
 
@@ -65,7 +69,7 @@ class EstimateSettings:
 
 def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tuple[Hypothesis, ...]:
     """Gather hypotheses that stand close together into places, the most probable first; at least one."""
-    columns, rows = _blocks(belief, atlas, settings)
+    columns, rows = _blocks(belief, atlas, _block_of(belief, settings))
     remaining = _masses(columns, rows, belief.weights)
     found: list[Hypothesis] = []
     while len(found) < settings.hypotheses:
@@ -82,9 +86,19 @@ def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tup
 
 def count_blocks(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
     """Count the blocks that belief is spread over: as many equal ones would have the same entropy."""
-    masses = _masses(*_blocks(belief, atlas, settings), belief.weights)
+    masses = _masses(*_blocks(belief, atlas, _block_of(belief, settings)), belief.weights)
     shares = masses[masses > 0.0]
     return float(np.exp(-shares @ np.log(shares)))
+
+
+def agreement(belief: Belief, other: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
+    """Return the share of belief that stands where the other has at least a trace of its own."""
+    block = _block_of(other, settings)
+    held = _around(_masses(*_blocks(other, atlas, block), other.weights)) > TRACE
+    columns, rows = _blocks(belief, atlas, block)
+    inside = (columns < held.shape[0]) & (rows < held.shape[1])
+    inside[inside] = held[columns[inside], rows[inside]]
+    return float(belief.weights[inside].sum())
 
 
 def _masses(columns: NDArray[np.int64], rows: NDArray[np.int64], weights: Array) -> Array:
@@ -94,11 +108,13 @@ def _masses(columns: NDArray[np.int64], rows: NDArray[np.int64], weights: Array)
     return np.asarray(np.bincount(flat, weights, shape[0] * shape[1]), dtype=np.float64).reshape(shape)
 
 
-def _blocks(
-    belief: Belief, atlas: Atlas, settings: EstimateSettings
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _block_of(belief: Belief, settings: EstimateSettings) -> float:
+    """Return the size of a block [drawing units]."""
+    return settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
+
+
+def _blocks(belief: Belief, atlas: Atlas, block: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Tell which block each hypothesis stands in, (n,), (n,); far off the drawing is at its rim."""
-    block = settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
     table = atlas.range_table
     left, bottom = table.corner
     extents = table.columns * table.cell_size, table.rows * table.cell_size
@@ -133,23 +149,19 @@ def share_at(place: Hypothesis, belief: Belief, settings: EstimateSettings) -> f
 
 def defended(
     own: Hypothesis,
+    probability: float,
     share: float,
-    confidence: float,
     places: tuple[Hypothesis, ...],
     settings: EstimateSettings,
 ) -> tuple[Hypothesis, ...]:
-    """Put the incumbent's place first among the challenger's, of which it has a share.
-
-    It is as probable as the challenger has it, or as the robot is still confident; the others have the rest.
-    """
-    probability = min(max(share, confidence), 1.0)
+    """Put the incumbent's place first among the challenger's; where it has no share, these have the rest."""
     left = (1.0 - probability) / max(1.0 - share, 1e-9)
     others = (
         replace(place, probability=min(place.probability * left, 1.0))
         for place in places
         if distance_between(own, place) > settings.jump
     )
-    return (replace(own, probability=probability), *others)[: settings.hypotheses]
+    return (replace(own, probability=min(probability, 1.0)), *others)[: settings.hypotheses]
 
 
 def distance_between(first: Hypothesis, second: Hypothesis) -> float:
@@ -167,7 +179,20 @@ def steady_confidence(
     `jump` [m] from the place that was carried along by the robot's motion begins anew.
     """
     kept = confidence if jump <= settings.jump else 0.0
-    return kept + (share - kept) * -math.expm1(-distance / settings.confirmation)
+    return drawn_to(share, kept, distance / settings.confirmation)
+
+
+def defended_confidence(
+    confidence: float, share: float, distance: float, settings: EstimateSettings
+) -> float:
+    """Let confidence in a defended place grow as belief agrees, and fade slowly as it does not."""
+    way = settings.confirmation if share > confidence else settings.fading
+    return drawn_to(share, confidence, distance / way)
+
+
+def drawn_to(target: float, value: float, time: float) -> float:
+    """Draw a value to a target; two thirds of the way in a unit of time."""
+    return value + (target - value) * -math.expm1(-time)
 
 
 def estimate_from(

@@ -37,24 +37,31 @@ class IncumbentSettings:
 
 @dataclass(frozen=True, eq=False)
 class Incumbent:
-    """The belief that is believed, and how far the challenger has come."""
+    """The belief that is believed, what it is worth, and how far the challenger has come."""
 
     belief: Belief
-    stake: float = 0.0  # log-odds by which the challenger must lead
+    confidence: float  # [0..1] that the robot is where this belief holds it possible, anywhere there
+    stake: float  # log-odds by which the challenger must lead
     lead: float = 0.0  # log-odds by which it does
-
-    def contested(
-        self, belief: Belief, gain: float, confidence: float, settings: IncumbentSettings
-    ) -> "Incumbent":
-        """Carry its belief on after a look that the challenger explained better by `gain`."""
-        lead = max(self.lead + max(-settings.most, min(settings.most, gain)), 0.0)
-        stake = settings.odds * confidence if lead == 0.0 else self.stake
-        return Incumbent(belief, stake, lead)
 
     @property
     def is_beaten(self) -> bool:
         """Tell whether the challenger has earned it."""
         return self.lead >= self.stake
+
+    def contested(self, belief: Belief, gain: float, settings: IncumbentSettings) -> "Incumbent":
+        """Carry its belief on after a look that the challenger explained better by `gain`.
+
+        What it is worth is settled when the challenger begins to lead.
+        """
+        lead = max(self.lead + max(-settings.most, min(settings.most, gain)), 0.0)
+        stake = settings.odds * self.confidence if lead == 0.0 else self.stake
+        return Incumbent(belief, self.confidence, stake, lead)
+
+    @property
+    def credit(self) -> float:
+        """What is left of its worth, [0..1]."""
+        return max(1.0 - self.lead / self.stake, 0.0)
 
 
 def incumbent_at(
@@ -71,8 +78,10 @@ def incumbent_at(
     at, scale = place.sketch_from_base.pose, place.sketch_from_base.scale
     away = np.hypot(belief.states[X] - at.x, belief.states[Y] - at.y)
     members = away <= settings.reach * scale
+    if not members.any():
+        return None
     own = Belief(belief.states[:, members], belief.log_weights[members])
-    return Incumbent(own.resampled(settings.count, rng), stake)
+    return Incumbent(own.resampled(settings.count, rng), confidence, stake)
 
 
 def gain_of(belief: tuple[Belief, Belief], incumbent: tuple[Belief, Belief]) -> float:

@@ -19,8 +19,10 @@ from pilotage.localization.estimate import (
     Estimate,
     EstimateSettings,
     Hypothesis,
+    agreement,
     count_blocks,
     defended,
+    defended_confidence,
     distance_between,
     estimate_from,
     find_places,
@@ -104,7 +106,8 @@ class Localizer:
         self._search_due = False
         self._incumbent: Incumbent | None = None  # whose belief is believed, if not this one
         if start is not None:
-            self._incumbent = Incumbent(self.belief, self.settings.incumbent.odds)
+            own = self.belief.resampled(self.settings.incumbent.count, self._rng)
+            self._incumbent = Incumbent(own, 1.0, self.settings.incumbent.odds)
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
@@ -136,14 +139,19 @@ class Localizer:
             raise ValueError("a placement needs at least one scan, got none")
         return self._placement.moved(self._motion)
 
+    @property
+    def believed(self) -> Belief:
+        """The belief that is believed: the incumbent's, if there is one."""
+        return self.belief if self._incumbent is None else self._incumbent.belief
+
     def belief_in(self, cell_id: str) -> float:
-        """Return the probability that the robot is in this cell, wherever in it."""
+        """Return the probability that the robot was in this cell at the last look, wherever in it."""
         graph = self.atlas.cell_graph
         if graph is None:
             return 0.0
-        lines = self.atlas.range_table.lines_at(self.belief.states[:2].T)
+        lines = self.atlas.range_table.lines_at(self.believed.states[:2].T)
         inside = self.atlas.cell_indices[lines] == graph.index_from_id[cell_id]
-        return float(self.belief.weights[inside].sum())
+        return float(self.believed.weights[inside].sum())
 
     def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:
         """Carry belief along, and weigh it by what is seen now."""
@@ -160,7 +168,7 @@ class Localizer:
             own = self._weighed(incumbent.belief, motion, seen, news)
             gain = gain_of((self.belief, weighed), (incumbent.belief, own))
             own = thin(own, self._tracking, self._rng)
-            self._incumbent = incumbent.contested(own, gain, self._confidence, settings.incumbent)
+            self._incumbent = incumbent.contested(own, gain, settings.incumbent)
         self.belief = thin(weighed, self._tracking, self._rng)
 
     def _weighed(self, belief: Belief, motion: Pose2, seen: Look, news: float) -> Belief:
@@ -171,26 +179,30 @@ class Localizer:
     def _settle(self, motion: Pose2) -> None:
         """Gather belief into places, and see where in its surroundings the robot stands at the first."""
         settings, carried = self.settings.estimate, self._moved_places(motion)
-        if self._incumbent is not None and self._incumbent.is_beaten:
-            self._incumbent = None
-        believed = self.belief if self._incumbent is None else self._incumbent.belief
+        way = math.hypot(motion.x, motion.y)
+        incumbent = self._incumbent
+        if incumbent is not None and incumbent.is_beaten:
+            incumbent = None
         places = find_places(self.belief, self.atlas, settings)
-        share = places[0].probability
-        if self._incumbent is not None:
-            own = find_places(believed, self.atlas, replace(settings, hypotheses=1))[0]
+        if incumbent is not None:
+            agreed = agreement(self.belief, incumbent.belief, self.atlas, settings)
+            worth = defended_confidence(incumbent.confidence, agreed, way, settings)
+            incumbent = replace(incumbent, confidence=worth)
+            own = find_places(incumbent.belief, self.atlas, replace(settings, hypotheses=1))[0]
             share = share_at(own, self.belief, settings)
-            places = defended(own, share, self._confidence, places, settings)
-        if carried:
+            self._confidence = defended_confidence(self._confidence, share, way, settings)
+            probability = max(share, self._confidence * incumbent.credit)
+            places = defended(own, probability, share, places, settings)
+        elif carried:
             jump = distance_between(places[0], carried[0])
-            way = math.hypot(motion.x, motion.y)
+            share = places[0].probability
             self._confidence = steady_confidence(self._confidence, share, jump, way, settings)
         self._places = places
+        self._incumbent = incumbent or incumbent_at(
+            places[0], self.belief, self._confidence, self.settings.incumbent, self._rng
+        )
         at = places[0].sketch_from_base.pose
-        self._placement = place_at(believed, (at.x, at.y), settings.jump)
-        if self._incumbent is None:
-            self._incumbent = incumbent_at(
-                places[0], self.belief, self._confidence, self.settings.incumbent, self._rng
-            )
+        self._placement = place_at(self.believed, (at.x, at.y), settings.jump)
 
     def _search(self) -> None:
         """Hold belief against a search of the drawing, and let it have a share where it explains as much."""

@@ -103,7 +103,7 @@ def weigh(belief: Belief, seen: Look, model: VisibilityModel, *, news: float = 1
 
 
 def thin(belief: Belief, settings: TrackingSettings, rng: np.random.Generator) -> Belief:
-    """Resample where few hypotheses carry the weight."""
+    """Resample where few hypotheses carry the weight; many are thinned out little by little."""
     if belief.effective_count >= settings.resample_below * len(belief):
         return belief
     fewer = max(settings.count, int(settings.shrink * len(belief)))

@@ -1,6 +1,7 @@
 """Scan in, command out: drives a robot to a goal that is marked on a drawing (Wolter 2001, section 4.2)."""
 
 import math
+from collections import deque
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -32,7 +33,9 @@ class NavigatorSettings:
     act_on: float = 0.3  # probability of a place from which on the robot goes by it
     arrived: float = 0.35  # [m] to the goal
     beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
-    patience: float = 6.0  # [s] without coming nearer before something else is tried
+    before: float = 3.0  # [m] to a gateway that the robot cannot get through: it is taken to be closed
+    patience: float = 8.0  # [s] without getting away from a place before something else is tried
+    detour: float = 10.0  # [s] for which it explores then
     closed_for: float = 120.0  # [s] for which a gateway that was found closed is not tried again
 
     def __post_init__(self) -> None:
@@ -55,6 +58,10 @@ class Plan:
     def target(self) -> Array:
         """The end of the way, (2,) in odom [m]."""
         return np.asarray(self.way[-1])
+
+
+BLIND = math.radians(30.0)
+"""A scanner that leaves out less sees all around."""
 
 
 class Navigator:
@@ -85,10 +92,9 @@ class Navigator:
         self._planned = -math.inf
         self._turn_left = 0.0  # [rad] still to be turned while looking around
         self._heading = 0.0
+        self._blind = math.tau  # [rad] of the directions that the scanner does not see
         self._closed: dict[str, float] = {}  # gateways found closed, and when
-        self._nearest = math.inf  # [m] that the robot came to the point it heads for
-        self._nearer_at = 0.0  # [s] when it did
-        self._tried = 0  # how often something else was tried without coming nearer
+        self._moved_at: deque[tuple[float, float, float]] = deque()  # when the robot was where [s, m, m]
         self._explore_until = -math.inf
         self._times_lost = 0
         self._outcome: Outcome | None = None
@@ -115,11 +121,12 @@ class Navigator:
     def _localize(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Give the localizer a scan if the robot moved; else keep what it said."""
         if self._estimate is None or self._perceived is None:
-            self._began = self._nearer_at = scan.stamp
+            self._began = scan.stamp
+            self._blind = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
             self._estimate = self.localizer.update(scan, odometry)
             self._perceived = odometry
             if self._estimate.status is Status.LOST:
-                self._look_around(math.tau)
+                self._look_around()
             return self._estimate
         motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
         if (
@@ -196,34 +203,39 @@ class Navigator:
         settings, leg = self.settings, plan.leg
         assert leg is not None
         in_cell = not leg.next_cell_id
-        to_goal = float(np.hypot(*leg.point)) if in_cell else math.inf
+        to_goal = leg.distance if in_cell else math.inf
         way_left = float(np.hypot(*(plan.target - reach.surroundings.odom_from_base.position)))
         stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.beside
         if to_goal < settings.arrived or stuck_beside:
             if estimate.status is Status.LOCATED:
                 self._end(Outcome.REACHED, f"the goal in {estimate.cell_id} is reached")
                 return None
-            self._explore_until = stamp + 20.0
-            self._look_around(math.tau)
+            self._explore_until = stamp + 2.0 * settings.detour
+            self._look_around()
             return None
-        left = leg.distance
-        if left < self._nearest - 0.2:
-            self._nearest, self._nearer_at, self._tried = left, stamp, 0
-        if stamp - self._nearer_at > settings.patience:
-            self._nearer_at, self._nearest = stamp, left
-            self._tried += 1
-            if self._tried % 3 == 1:
-                self._look_around(math.tau)
-                return None
-            if leg.gateway_id and float(np.hypot(*leg.middle)) < 3.0:
+        if self._is_stuck(stamp):
+            self._moved_at.clear()
+            if leg.gateway_id and float(np.hypot(*leg.middle)) < settings.before:
                 self._closed[leg.gateway_id] = stamp
-            self._explore_until = stamp + 10.0
-            self._nearest = math.inf
+            else:
+                self._explore_until = stamp + settings.detour
         return plan
 
-    def _look_around(self, turn: float) -> None:
-        """Turn on the spot for so much [rad]."""
-        self._turn_left = turn
+    def _is_stuck(self, stamp: float) -> bool:
+        """Tell whether the robot has not got away from here for long, though nothing told it to stay."""
+        here, settings = self.surroundings.odom_from_base.position, self.settings
+        self._moved_at.append((stamp, float(here[0]), float(here[1])))
+        for lasting, reach in ((settings.patience, 0.3), (5.0 * settings.patience, 2.0)):
+            lately = [(x, y) for then, x, y in self._moved_at if stamp - then <= lasting]
+            if stamp - self._moved_at[0][0] >= lasting and max(math.dist(here, at) for at in lately) < reach:
+                return True
+        while stamp - self._moved_at[0][0] > 6.0 * settings.patience:
+            self._moved_at.popleft()
+        return False
+
+    def _look_around(self) -> None:
+        """Turn on the spot until all was seen: a scanner that sees all around need not turn."""
+        self._turn_left = self._blind if self._blind > BLIND else 0.0
 
     def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
         """Drive to where the places held possible would look most different; keep to what was begun."""
