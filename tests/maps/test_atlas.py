@@ -1,6 +1,7 @@
 import math
 
 import numpy as np
+import pytest
 
 from buildings import flat
 from pilotage.geometry import Polyline, Pose2, Similarity2
@@ -52,3 +53,40 @@ def test_a_drawing_that_encloses_nothing_has_no_cells():
 
     assert atlas.cell_graph is None
     assert "" == atlas.cell_at((1.0, 1.0))
+
+
+@pytest.mark.parametrize("cells", [7, 60])
+def test_the_middle_of_each_grid_cell_is_on_its_own_line(cells):
+    table = build_range_table(flat(3.0, Pose2(-4.0, 9.0, 0.4)), RangeTableSettings(cells=cells, directions=4))
+
+    np.testing.assert_array_equal(np.arange(table.columns * table.rows), table.lines_at(table.middles))
+    assert len(table.log_ranges) == len(table.middles)
+    assert {tuple(place) for place in table.places} <= {tuple(middle) for middle in table.middles}
+
+
+def test_points_are_looked_up_where_they_lie_and_off_the_grid_at_its_rim():
+    table = build_range_table(flat(), RangeTableSettings(cells=20, directions=4))
+    left, bottom, cell, columns, rows = table.grid
+    off = np.array([(-50.0, -50.0), (50.0, 50.0), (-50.0, 3.0)])
+
+    beside = table.lines_at(np.array([(left + 2.9 * cell, bottom + 1.1 * cell)]))
+    assert [2 * rows + 1] == beside.tolist()
+    row = int((3.0 - bottom) / cell)
+    assert [0, columns * rows - 1, row] == table.lines_at(off).tolist()
+
+
+def test_grid_cells_know_which_cell_of_the_drawing_they_lie_in():
+    atlas = build_atlas(flat(), AtlasSettings(range_table=RangeTableSettings(cells=60, directions=30)))
+    table, graph = atlas.range_table, atlas.cell_graph
+
+    assert len(graph.cells) > 1
+    found = atlas.cell_indices[table.lines_at(table.places)]
+    names = [graph.cells[index].cell_id for index in found]
+    assert [atlas.cell_at(tuple(place)) for place in table.places] == names
+
+
+def test_where_there_are_no_cells_all_grid_cells_are_the_first():
+    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), AtlasSettings())
+
+    assert {0} == set(atlas.cell_indices.tolist())
+    assert atlas.range_table.columns * atlas.range_table.rows == len(atlas.cell_indices)
