@@ -211,3 +211,51 @@ def test_confidence_grows_with_the_way_and_begins_anew_after_a_jump():
     assert grown == sorted(grown)
     assert math.isclose(0.95 * (1 - math.exp(-20.0 / 4.0)), grown[-1], rel_tol=1e-9)
     assert steady_confidence(grown[-1], 0.95, 3.0, 0.5, settings) < 0.2
+
+
+def test_a_look_that_is_no_news_tells_nothing_and_half_news_half_as_much(model):
+    seen = look(scan_at(TRUE), VISIBILITY)
+    states = propose_anywhere(model.atlas, Prior(), 200, np.random.default_rng(0))
+    belief = Belief(states, np.linspace(-3.0, 0.0, 200))
+
+    none, half, full = (weigh(belief, seen, model, news=news).log_weights for news in (0.0, 0.5, 1.0))
+
+    np.testing.assert_array_equal(belief.log_weights, none)
+    np.testing.assert_allclose(half - none, (full - none) / 2.0)
+    np.testing.assert_array_equal(full, weigh(belief, seen, model).log_weights)
+    assert np.ptp(full - none) > 1.0
+
+
+def test_the_wider_belief_is_spread_the_more_hypotheses_it_needs():
+    settings = TrackingSettings(first_count=9000, count=3000, least=500)
+    counts = [settings.count_for(blocks, 3000) for blocks in (0.1, 1.0, 2.0, 1e6)]
+
+    assert counts == sorted(counts)
+    assert 500 == counts[0]
+    assert 3000 == counts[-1]
+
+
+def test_hypotheses_from_before_the_first_looks_are_not_dropped_at_once():
+    settings = TrackingSettings(first_count=9000, count=3000, least=500)
+
+    assert 9000 == settings.count_for(1.0, 9000)
+    assert 4500 <= len(thin(few_that_count(9000), settings, np.random.default_rng(0))) < 9000
+
+
+def few_that_count(count):
+    """Belief of which a few hypotheses have all the weight."""
+    states = np.zeros((6, count))
+    return Belief(states, np.r_[np.zeros(5), np.full(count - 5, -60.0)])
+
+
+def test_thinning_keeps_to_what_carries_the_weight():
+    belief = few_that_count(1000)
+    belief.states[0, 5:] = 1.0
+    settings = TrackingSettings(first_count=1000, count=600, least=100)
+
+    thinned = thin(belief, settings, np.random.default_rng(0))
+
+    assert 600 == len(thinned)
+    assert (thinned.states[0] == 0.0).all()
+    assert (thinned.log_weights == 0.0).all()
+    assert thinned is thin(thinned, settings, np.random.default_rng(0))
