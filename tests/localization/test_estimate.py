@@ -104,8 +104,8 @@ def test_belief_agrees_by_the_share_that_stands_where_the_other_does():
 
 
 def test_belief_in_the_next_block_agrees_too():
-    assert 1.0 == agreement(belief_at((2.2, 1.5)), belief_at((1.5, 1.5)), ATLAS, SETTINGS)
-    assert 0.0 == agreement(belief_at((4.5, 1.5)), belief_at((1.5, 1.5)), ATLAS, SETTINGS)
+    assert 1.0 == agreement(belief_at((1.5, 1.5)), belief_at((2.2, 1.5)), ATLAS, SETTINGS)
+    assert 0.0 == agreement(belief_at((1.5, 1.5)), belief_at((4.5, 1.5)), ATLAS, SETTINGS)
 
 
 @given(beliefs, spots, st.floats(0.0, 1.0))
