@@ -14,6 +14,7 @@ from sites import Site
 RADIUS = BodySettings().radius
 CLEARANCE = 0.3  # [m] about start and goal
 SHORTEST = 10.0  # [m] a way that is worth driving
+INSIDE = 0.75  # [m] that a goal lies inside its room: at the border centimetres would decide
 
 Indices = NDArray[np.intp]
 
@@ -75,7 +76,9 @@ def errand_between(
     """
     starts, goals = (site.poses[members[room]] for room in pair)
     starts = in_cells(site, rng.permutation(starts))
-    goals = in_cells(site, goals[np.argsort(-depths(site, pair[1], goals[:, :2]), kind="stable")])
+    inside = depths(site, pair[1], goals[:, :2])
+    goals = goals[np.argsort(-inside, kind="stable")][: np.count_nonzero(inside >= INSIDE)]
+    goals = in_cells(site, goals)
     if len(starts) == 0 or len(goals) == 0:
         return None
     x, y = goals[0, :2].tolist()

@@ -22,7 +22,7 @@ class NavigatorSettings:
     """How the robot drives."""
 
     radius: float = 0.2  # [m] of the robot's footprint, a disc about its base
-    time_limit: float = 1800.0  # [s] after which the robot gives up
+    time_limit: float = 900.0  # [s] after which the robot gives up
     surroundings: SurroundingsSettings = field(default_factory=SurroundingsSettings)
     steering: SteeringSettings = field(default_factory=SteeringSettings)
     exploring: ExploringSettings = field(default_factory=ExploringSettings)
@@ -31,7 +31,11 @@ class NavigatorSettings:
     perceive_turn: float = math.radians(8.0)  # [rad] the same
     plan_every: float = 0.3  # [s]
     act_on: float = 0.3  # probability of a place from which on the robot goes by it
-    arrived: float = 0.35  # [m] to the goal
+    arrived: float = 0.2  # [m] to the goal
+    sure: float = (
+        0.95  # confidence that the robot needs to stop there; else it looks for more, and comes back
+    )
+    easing: float = 0.1  # by how much less it needs each time it comes back
     beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
     before: float = 3.0  # [m] to a gateway that the robot cannot get through: it is taken to be closed
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
@@ -59,6 +63,9 @@ class Plan:
         """The end of the way, (2,) in odom [m]."""
         return np.asarray(self.way[-1])
 
+
+VAIN = 10
+"""So many places are remembered that the robot could not get to."""
 
 BLIND = math.radians(30.0)
 """A scanner that leaves out less sees all around."""
@@ -96,6 +103,9 @@ class Navigator:
         self._closed: dict[str, float] = {}  # gateways found closed, and when
         self._moved_at: deque[tuple[float, float, float]] = deque()  # when the robot was where [s, m, m]
         self._explore_until = -math.inf
+        self._times_stuck = 0
+        self._times_doubted = 0  # how often the robot came to where the goal should be, and was not sure
+        self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
         self._times_lost = 0
         self._outcome: Outcome | None = None
         self._reason = ""
@@ -159,16 +169,16 @@ class Navigator:
     def _make_plan(self, stamp: float, estimate: Estimate) -> Plan | None:
         """Decide what to do next; None to turn on the spot."""
         if self._turn_left > 0.0:
+            self._moved_at.clear()
             return None
+        self._remember(stamp)
         reach = self.surroundings.reach(self.settings.radius)
         if len(reach.cells) == 0:
             return None
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
-        if not knows or stamp < self._explore_until:
-            return self._explore(reach, estimate)
-        leg = self._leg(stamp)
+        leg = self._leg(stamp) if knows and stamp >= self._explore_until else None
         if leg is None:
-            return self._explore(reach, estimate)
+            return self._explore(reach, stamp, estimate)
         plan = self._follow(reach, leg)
         return self._watch(plan, reach, stamp, estimate)
 
@@ -207,48 +217,57 @@ class Navigator:
         way_left = float(np.hypot(*(plan.target - reach.surroundings.odom_from_base.position)))
         stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.beside
         if to_goal < settings.arrived or stuck_beside:
-            if estimate.status is Status.LOCATED:
+            needed = max(settings.sure - settings.easing * self._times_doubted, settings.act_on)
+            if estimate.status is Status.LOCATED and estimate.confidence >= needed:
                 self._end(Outcome.REACHED, f"the goal in {estimate.cell_id} is reached")
                 return None
-            self._explore_until = stamp + 2.0 * settings.detour
+            self._times_doubted += 1
+            self._explore_until = stamp + settings.detour
             self._look_around()
             return None
         if self._is_stuck(stamp):
             self._moved_at.clear()
             if leg.gateway_id and float(np.hypot(*leg.middle)) < settings.before:
                 self._closed[leg.gateway_id] = stamp
-            else:
-                self._explore_until = stamp + settings.detour
+            self._times_stuck += 1
+            self._explore_until = stamp + settings.detour * self._times_stuck
         return plan
 
     def _is_stuck(self, stamp: float) -> bool:
         """Tell whether the robot has not got away from here for long, though nothing told it to stay."""
         here, settings = self.surroundings.odom_from_base.position, self.settings
-        self._moved_at.append((stamp, float(here[0]), float(here[1])))
         for lasting, reach in ((settings.patience, 0.3), (5.0 * settings.patience, 2.0)):
             lately = [(x, y) for then, x, y in self._moved_at if stamp - then <= lasting]
             if stamp - self._moved_at[0][0] >= lasting and max(math.dist(here, at) for at in lately) < reach:
                 return True
-        while stamp - self._moved_at[0][0] > 6.0 * settings.patience:
-            self._moved_at.popleft()
         return False
+
+    def _remember(self, stamp: float) -> None:
+        """Remember when the robot was where."""
+        x, y = self.surroundings.odom_from_base.position.tolist()
+        self._moved_at.append((stamp, x, y))
+        while stamp - self._moved_at[0][0] > 6.0 * self.settings.patience:
+            self._moved_at.popleft()
 
     def _look_around(self) -> None:
         """Turn on the spot until all was seen: a scanner that sees all around need not turn."""
         self._turn_left = self._blind if self._blind > BLIND else 0.0
 
-    def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
+    def _explore(self, reach: Reach, stamp: float, estimate: Estimate) -> Plan:
         """Drive to where the places held possible would look most different; keep to what was begun."""
         if self._plan is not None and self._plan.behavior is Behavior.EXPLORE:
-            away = np.hypot(*(reach.points - self._plan.target).T)
-            index = int(away.argmin())
-            if away[index] < 0.3 and reach.lengths[index] > 0.5:
-                return Plan(Behavior.EXPLORE, reach.way_to(index))
-        rim = choose_rim(
-            reach, self.trail, estimate.hypotheses, self.localizer.atlas, self.settings.exploring
-        )
+            if self._is_stuck(stamp):
+                self._moved_at.clear()
+                self._vain = np.vstack([self._vain, self._plan.target])[-VAIN:]
+            else:
+                away = np.hypot(*(reach.points - self._plan.target).T)
+                index = int(away.argmin())
+                if away[index] < 0.3 and reach.lengths[index] > 0.5:
+                    return Plan(Behavior.EXPLORE, reach.way_to(index))
+        trail = np.vstack([self.trail, self._vain])
+        rim = choose_rim(reach, trail, estimate.hypotheses, self.localizer.atlas, self.settings.exploring)
         if rim is None:
-            return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, self.trail)))
+            return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, trail)))
         return Plan(Behavior.EXPLORE, reach.way_to(rim))
 
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
