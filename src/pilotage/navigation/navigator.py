@@ -38,9 +38,11 @@ class NavigatorSettings:
     easing: float = 0.1  # by how much less it needs each time it comes back
     beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
     before: float = 3.0  # [m] to a gateway that the robot cannot get through: it is taken to be closed
+    close_by: float = 1.5  # [m] to a gateway from which on it can be seen what lies behind it
+    behind: float = 0.8  # [m] to the point behind it that one can come near to, or else it is closed
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
     detour: float = 10.0  # [s] for which it explores then
-    closed_for: float = 120.0  # [s] for which a gateway that was found closed is not tried again
+    closed_for: float = 300.0  # [s] for which a gateway that was found closed is not tried again
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
@@ -103,6 +105,8 @@ class Navigator:
         self._closed: dict[str, float] = {}  # gateways found closed, and when
         self._moved_at: deque[tuple[float, float, float]] = deque()  # when the robot was where [s, m, m]
         self._explore_until = -math.inf
+        self._facing: dict[str, float] = {}  # gateways that the robot is close to, and for how long [s]
+        self._faced_from = np.zeros(2)  # where that began, in odom [m]
         self._times_stuck = 0
         self._times_doubted = 0  # how often the robot came to where the goal should be, and was not sure
         self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
@@ -123,7 +127,9 @@ class Navigator:
         self._heading = odom_from_base.theta
         if self._outcome is None and scan.stamp - self._began >= self.settings.time_limit:
             self._end(Outcome.GAVE_UP, f"the goal was not reached within {self.settings.time_limit:.0f} s")
-        if self._outcome is None and scan.stamp - self._planned >= self.settings.plan_every:
+        waited = scan.stamp - self._planned
+        is_busy = self._perceived is odometry and waited < 2.0 * self.settings.plan_every
+        if self._outcome is None and waited >= self.settings.plan_every and not is_busy:
             self._plan = self._make_plan(scan.stamp, estimate)
             self._planned = scan.stamp
         return self._report(scan, estimate)
@@ -225,6 +231,7 @@ class Navigator:
             self._explore_until = stamp + settings.detour
             self._look_around()
             return None
+        self._note_closed(plan, leg, stamp)
         if self._is_stuck(stamp):
             self._moved_at.clear()
             if leg.gateway_id and float(np.hypot(*leg.middle)) < settings.before:
@@ -232,6 +239,25 @@ class Navigator:
             self._times_stuck += 1
             self._explore_until = stamp + settings.detour * self._times_stuck
         return plan
+
+    def _note_closed(self, plan: Plan, leg: Leg, stamp: float) -> None:
+        """Take a gateway to be closed if the robot stays close to it for long and does not get through.
+
+        Time counts twice where nothing behind it can be come near to.
+        """
+        here, settings = self.surroundings.odom_from_base.position, self.settings
+        if self._facing and math.dist(here, self._faced_from) > 2.0 * settings.close_by:
+            self._facing = {}
+        if not leg.gateway_id or float(np.hypot(*leg.middle)) > settings.close_by:
+            return
+        if not self._facing:
+            self._faced_from = here
+        weight = 2.0 if plan.gap > settings.behind else 1.0
+        faced = self._facing.get(leg.gateway_id, 0.0) + weight * settings.plan_every
+        self._facing[leg.gateway_id] = faced
+        if faced > settings.patience:
+            self._closed[leg.gateway_id] = stamp
+            del self._facing[leg.gateway_id]
 
     def _is_stuck(self, stamp: float) -> bool:
         """Tell whether the robot has not got away from here for long, though nothing told it to stay."""
