@@ -24,20 +24,21 @@ from pilotage.perception import Odometry
 from pilotage.simulation import Door, LaserSettings, Person, Simulator, SimulatorSettings, World
 from pilotage.simulation.body import rolled
 
-QUARTERS = (
-    [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)],
+ROOMS = (
+    [(0, 0), (12, 0), (12, 9), (0, 9), (0, 0)],
     [(5, 0), (5, 2)],
-    [(5, 3), (5, 7)],
-    [(5, 8), (5, 10)],
-    [(0, 5), (2, 5)],
-    [(3, 5), (7, 5)],
-    [(8, 5), (10, 5)],
+    [(5, 3), (5, 6.5)],
+    [(5, 7.5), (5, 9)],
+    [(0, 5), (1, 5)],
+    [(2, 5), (9, 5)],
+    [(10, 5), (12, 5)],
+    [(7.5, 5), (7.5, 6)],
 )
-"""Four rooms, each with a door to two others [m]."""
+"""Four rooms, each with a door to two others, none like another [m]."""
 SMALL = LocalizerSettings(
     atlas=AtlasSettings(range_table=RangeTableSettings(cells=80, directions=60)),
-    tracking=TrackingSettings(first_count=20_000, count=5_000, least=2_000),
-    alignment=AlignmentSettings(proposals=2_000, kept=(500, 100)),
+    tracking=TrackingSettings(first_count=50_000, count=20_000),
+    alignment=AlignmentSettings(proposals=4_000, kept=(1_000, 200)),
 )
 START = Pose2(2.5, 2.5, 0.0)
 SEEING = SimulatorSettings()
@@ -45,7 +46,7 @@ SEEING = SimulatorSettings()
 
 def drawn(scale=(1.0, 1.0)):
     """Draw the rooms, so many units a metre across and up the sheet."""
-    return SchematicMap(tuple(Polyline.through(np.array(stroke) * scale) for stroke in QUARTERS))
+    return SchematicMap(tuple(Polyline.through(np.array(stroke) * scale) for stroke in ROOMS))
 
 
 SKETCH = drawn()
