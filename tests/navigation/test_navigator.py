@@ -189,6 +189,29 @@ def test_a_robot_that_does_not_know_where_it_is_and_looks_ahead_turns_round_firs
     assert 1.0 < abs(instants[-1].scene.world_from_base.theta)
 
 
+class Forgetful(Localizer):
+    """Is not sure of any place for ten seconds."""
+
+    def update(self, scan, odometry):
+        estimate = super().update(scan, odometry)
+        if not 2.0 <= scan.stamp < 12.0:
+            return estimate
+        places = tuple(replace(place, probability=0.1) for place in estimate.hypotheses)
+        return replace(estimate, hypotheses=places)
+
+
+def test_a_robot_explores_while_it_knows_no_place_and_drives_on_once_it_does():
+    pilot = Forgetful(ATLAS, SMALL, start=START)
+    steps = [instant.step for instant in islice(set_out((8.5, 7.0), pilot=pilot), 150)]
+
+    exploring = {step.behavior for step in steps if 3.0 < step.stamp < 12.0}
+    after = {step.behavior for step in steps if step.stamp > 13.0}
+    assert Behavior.EXPLORE in exploring
+    assert Behavior.CROSS not in exploring
+    assert after <= {Behavior.CROSS, Behavior.GO_THROUGH, Behavior.WAIT, Behavior.REST}
+    assert all(() == step.closed_gateway_ids for step in steps)
+
+
 def test_equal_seeds_give_equal_steps_and_others_do_not():
     runs = [
         [instant.step for instant in islice(set_out((7.5, 7.5), pilot=localizer(start=None, seed=seed)), 25)]
