@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from buildings.office import WALLS
-from buildings.plan import Points, box
+from floors.office import WALLS
+from floors.plan import Points, box
 
 # What stands in the building and in no drawing.
 THINGS: list[Points] = [

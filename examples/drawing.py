@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from buildings.plan import Memory, Points
+from floors.plan import Memory, Points
 from pilotage.geometry import Array
 
 

@@ -17,8 +17,8 @@ import numpy as np
 from shapely import Geometry, LineString, MultiPolygon, Point, union_all
 
 import pilotage
-from buildings import BUILDINGS, Building
-from buildings.plan import Points
+from floors import BUILDINGS, Building
+from floors.plan import Points
 from drawing import CAREFUL, QUICK, Hand, Sheet, smooth, trembling
 from pilotage.geometry import Array
 

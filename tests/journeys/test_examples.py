@@ -12,5 +12,5 @@ def test_the_robot_of_the_example_reaches_the_archive(monkeypatch, capsys):
     runpy.run_path(str(EXAMPLES / "02_navigate.py"), run_name="__main__")
     lines = capsys.readouterr().out.splitlines()
 
-    assert "look around, lost in" in lines[0]
+    assert "explore, lost in" in lines[0]
     assert "is reached; " in lines[-1]

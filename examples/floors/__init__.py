@@ -1,9 +1,9 @@
 """Three made-up buildings, furnished and lived in, and how two people remember each of them."""
 
-from buildings.home import HOME
-from buildings.museum import MUSEUM
-from buildings.office import OFFICE
-from buildings.plan import Building, Memory
+from floors.home import HOME
+from floors.museum import MUSEUM
+from floors.office import OFFICE
+from floors.plan import Building, Memory
 
 BUILDINGS = (OFFICE, HOME, MUSEUM)
 

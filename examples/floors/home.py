@@ -1,6 +1,6 @@
 """A house with a hall in its middle and a sunroom at its back. Metres, y down as on the page."""
 
-from buildings.plan import Building, Memory, box, disc, turned
+from floors.plan import Building, Memory, box, disc, turned
 
 HOME = Building(
     name="home",

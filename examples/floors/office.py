@@ -1,6 +1,6 @@
 """An office floor: rooms on both sides of a corridor, an irregular hall. Metres, y down as on the page."""
 
-from buildings.plan import Building, Memory, Points, box
+from floors.plan import Building, Memory, Points, box
 
 # As a person would draw them: one stroke for as long as the pen stays down, a gap for every door.
 WALLS: list[Points] = [

@@ -1,6 +1,6 @@
 """A museum: a great hall with free-standing walls, galleries, a rotunda. Metres, y down as on the page."""
 
-from buildings.plan import Building, Memory, box, disc, turned
+from floors.plan import Building, Memory, box, disc, turned
 
 MUSEUM = Building(
     name="museum",
