@@ -105,6 +105,7 @@ def test_belief_agrees_by_the_share_that_stands_where_the_other_does():
 
 def test_belief_in_the_next_block_agrees_too():
     assert 1.0 == agreement(belief_at((1.5, 1.5)), belief_at((2.2, 1.5)), ATLAS, SETTINGS)
+    assert 1.0 == agreement(belief_at((2.2, 1.5)), belief_at((1.5, 1.5)), ATLAS, SETTINGS)
     assert 0.0 == agreement(belief_at((1.5, 1.5)), belief_at((4.5, 1.5)), ATLAS, SETTINGS)
 
 
@@ -145,17 +146,18 @@ def test_a_place_that_has_its_share_takes_nothing_from_others():
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 20.0))
 def test_defended_confidence_moves_towards_the_share_and_never_beyond(confidence, share, distance):
-    moved = defended_confidence(confidence, share, distance, SETTINGS)
+    moved = defended_confidence(confidence, share, distance, SETTINGS, is_led=True)
 
     assert min(confidence, share) - 1e-9 <= moved <= max(confidence, share) + 1e-9
-    assert confidence == pytest.approx(defended_confidence(confidence, share, 0.0, SETTINGS))
+    assert confidence == pytest.approx(defended_confidence(confidence, share, 0.0, SETTINGS, is_led=True))
 
 
 def test_defended_confidence_grows_faster_than_it_fades():
-    grown = defended_confidence(0.2, 0.8, 2.0, SETTINGS) - 0.2
-    faded = 0.8 - defended_confidence(0.8, 0.2, 2.0, SETTINGS)
+    grown = defended_confidence(0.2, 0.8, 2.0, SETTINGS, is_led=True) - 0.2
+    faded = 0.8 - defended_confidence(0.8, 0.2, 2.0, SETTINGS, is_led=True)
 
     assert 0.0 < faded < grown
+    assert 0.8 == defended_confidence(0.8, 0.2, 2.0, SETTINGS, is_led=False)
 
 
 def test_the_first_place_is_claimed_no_surer_than_it_is():

@@ -94,8 +94,8 @@ def count_blocks(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> fl
 def agreement(belief: Belief, other: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
     """Return the share of belief that stands where the other has at least a trace of its own."""
     block = _block_of(other, settings)
-    held = _around(_masses(*_blocks(other, atlas, block), other.weights)) > TRACE
-    columns, rows = _blocks(belief, atlas, block)
+    held = _around(np.pad(_masses(*_blocks(other, atlas, block), other.weights), 1)) > TRACE
+    columns, rows = (blocks + 1 for blocks in _blocks(belief, atlas, block))
     inside = (columns < held.shape[0]) & (rows < held.shape[1])
     inside[inside] = held[columns[inside], rows[inside]]
     return float(belief.weights[inside].sum())
@@ -155,13 +155,12 @@ def defended(
     settings: EstimateSettings,
 ) -> tuple[Hypothesis, ...]:
     """Put the incumbent's place first among the challenger's; where it has no share, these have the rest."""
-    left = (1.0 - probability) / max(1.0 - share, 1e-9)
-    others = (
-        replace(place, probability=min(place.probability * left, 1.0))
-        for place in places
-        if distance_between(own, place) > settings.jump
-    )
-    return (replace(own, probability=min(probability, 1.0)), *others)[: settings.hypotheses]
+    probability = min(probability, 1.0)
+    others = [place for place in places if distance_between(own, place) > settings.jump]
+    held = sum(place.probability for place in others)
+    left = (1.0 - probability) / max(1.0 - share, held, 1e-9)
+    rest = (replace(place, probability=place.probability * left) for place in others)
+    return (replace(own, probability=probability), *rest)[: settings.hypotheses]
 
 
 def distance_between(first: Hypothesis, second: Hypothesis) -> float:
@@ -183,11 +182,15 @@ def steady_confidence(
 
 
 def defended_confidence(
-    confidence: float, share: float, distance: float, settings: EstimateSettings
+    confidence: float, share: float, distance: float, settings: EstimateSettings, *, is_led: bool
 ) -> float:
-    """Let confidence in a defended place grow as belief agrees, and fade slowly as it does not."""
-    way = settings.confirmation if share > confidence else settings.fading
-    return drawn_to(share, confidence, distance / way)
+    """Let confidence in a defended place grow as belief agrees, and fade as another place leads.
+
+    Belief that goes elsewhere without explaining more tells nothing: a building may repeat itself.
+    """
+    if share > confidence:
+        return drawn_to(share, confidence, distance / settings.confirmation)
+    return drawn_to(share, confidence, distance / settings.fading) if is_led else confidence
 
 
 def drawn_to(target: float, value: float, time: float) -> float:

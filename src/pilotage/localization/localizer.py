@@ -186,11 +186,12 @@ class Localizer:
         places = find_places(self.belief, self.atlas, settings)
         if incumbent is not None:
             agreed = agreement(self.belief, incumbent.belief, self.atlas, settings)
-            worth = defended_confidence(incumbent.confidence, agreed, way, settings)
+            is_led = incumbent.lead > 0.0
+            worth = defended_confidence(incumbent.confidence, agreed, way, settings, is_led=is_led)
             incumbent = replace(incumbent, confidence=worth)
             own = find_places(incumbent.belief, self.atlas, replace(settings, hypotheses=1))[0]
             share = share_at(own, self.belief, settings)
-            self._confidence = defended_confidence(self._confidence, share, way, settings)
+            self._confidence = defended_confidence(self._confidence, share, way, settings, is_led=is_led)
             probability = max(share, self._confidence * incumbent.credit)
             places = defended(own, probability, share, places, settings)
         elif carried:

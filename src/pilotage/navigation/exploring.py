@@ -18,7 +18,7 @@ DIRECTIONS = 36
 class ExploringSettings:
     """What makes a place worth driving to."""
 
-    unseen: float = 0.3  # share of unseen cells around it from which on there is something to see
+    unseen: float = 0.45  # share of unseen cells around it: more than in a corner, of what is behind walls
     around: float = 0.5  # [m] how far around
     block: float = 0.6  # [m] of places so near to each other the best one is considered
     newness: float = 1.0  # worth of each metre from where the robot was before, up to ...

@@ -141,6 +141,7 @@ class Navigator:
             self._blind = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
             self._estimate = self.localizer.update(scan, odometry)
             self._perceived = odometry
+            self._cell_belief = self.localizer.belief_in(self._estimate.cell_id)
             if self._estimate.status is Status.LOST:
                 self._look_around()
             return self._estimate

@@ -33,6 +33,9 @@ class SurroundingsSettings:
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0 m, got {getattr(self, name)}")
 
+        if not self.ease > self.margin:
+            raise ValueError(f"ease must be > margin, got {self.ease} and {self.margin}")
+
     @property
     def count(self) -> int:
         """How many cells the square is wide."""
