@@ -1,7 +1,6 @@
 """Scan in, command out: drives a robot to a goal that is marked on a drawing (Wolter 2001, section 4.2)."""
 
 import math
-from collections import deque
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,8 +8,10 @@ import numpy as np
 from pilotage.geometry import Array, Pose2, Twist
 from pilotage.localization import Estimate, Localizer, Status
 from pilotage.maps import NotEnclosedError, RouteError, RouteSettings, check_place
+from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
+from pilotage.navigation.progress import Progress
 from pilotage.navigation.steering import SLOW, STILL, SteeringSettings, brake, steer
 from pilotage.navigation.step import Behavior, Outcome, Step
 from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
@@ -26,6 +27,7 @@ class NavigatorSettings:
     surroundings: SurroundingsSettings = field(default_factory=SurroundingsSettings)
     steering: SteeringSettings = field(default_factory=SteeringSettings)
     exploring: ExploringSettings = field(default_factory=ExploringSettings)
+    closures: ClosureSettings = field(default_factory=ClosureSettings)
     route: RouteSettings = field(default_factory=RouteSettings)
     perceive_every: float = 0.15  # [m] of way between two scans that the localizer is given
     perceive_turn: float = math.radians(8.0)  # [rad] the same
@@ -37,12 +39,8 @@ class NavigatorSettings:
     )
     easing: float = 0.1  # by how much less it needs each time it comes back
     beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
-    before: float = 3.0  # [m] to a gateway that the robot cannot get through: it is taken to be closed
-    close_by: float = 1.5  # [m] to a gateway from which on it can be seen what lies behind it
-    behind: float = 0.8  # [m] to the point behind it that one can come near to, or else it is closed
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
     detour: float = 10.0  # [s] for which it explores then
-    closed_for: float = 300.0  # [s] for which a gateway that was found closed is not tried again
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
@@ -102,11 +100,9 @@ class Navigator:
         self._turn_left = 0.0  # [rad] still to be turned while looking around
         self._heading = 0.0
         self._blind = math.tau  # [rad] of the directions that the scanner does not see
-        self._closed: dict[str, float] = {}  # gateways found closed, and when
-        self._moved_at: deque[tuple[float, float, float]] = deque()  # when the robot was where [s, m, m]
+        self._closures = Closures()
+        self._progress = Progress()
         self._explore_until = -math.inf
-        self._facing: dict[str, float] = {}  # gateways that the robot is close to, and for how long [s]
-        self._faced_from = np.zeros(2)  # where that began, in odom [m]
         self._times_stuck = 0
         self._times_doubted = 0  # how often the robot came to where the goal should be, and was not sure
         self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
@@ -176,34 +172,31 @@ class Navigator:
     def _make_plan(self, stamp: float, estimate: Estimate) -> Plan | None:
         """Decide what to do next; None to turn on the spot."""
         if self._turn_left > 0.0:
-            self._moved_at.clear()
+            self._progress = Progress()
             return None
-        self._remember(stamp)
+        here = self.surroundings.odom_from_base.position
+        self._progress = self._progress.at(stamp, here, self.settings.patience)
         reach = self.surroundings.reach(self.settings.radius)
         if len(reach.cells) == 0:
             return None
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
         leg = self._leg(stamp) if knows and stamp >= self._explore_until else None
         if leg is None:
-            return self._explore(reach, stamp, estimate)
+            return self._explore(reach, estimate)
         plan = self._follow(reach, leg)
         return self._watch(plan, reach, stamp, estimate)
 
     def _leg(self, stamp: float) -> Leg | None:
         """Ask the drawing for the way; forget closed gateways after a while, and if nothing else is left."""
         placement = self.localizer.placement.moved(self._since_perceived())
-        self._closed = {
-            gateway: since
-            for gateway, since in self._closed.items()
-            if stamp - since < self.settings.closed_for
-        }
-        for closed in (tuple(self._closed), ()):
+        self._closures = self._closures.lasting(stamp, self.settings.closures)
+        for closed in (self._closures.gateway_ids, ()):
             try:
                 return lead(placement, self.graph, self.goal, self.settings.route, closed)
             except RouteError:
                 if not closed:
                     return None
-                self._closed = {}
+                self._closures = self._closures.opened()
         return None
 
     def _follow(self, reach: Reach, leg: Leg) -> Plan:
@@ -232,59 +225,27 @@ class Navigator:
             self._explore_until = stamp + settings.detour
             self._look_around()
             return None
-        self._note_closed(plan, leg, stamp)
-        if self._is_stuck(stamp):
-            self._moved_at.clear()
-            if leg.gateway_id and float(np.hypot(*leg.middle)) < settings.before:
-                self._closed[leg.gateway_id] = stamp
+        here, moment = (
+            reach.surroundings.odom_from_base.position,
+            (stamp, settings.plan_every, settings.patience),
+        )
+        self._closures = self._closures.faced(leg, plan.gap, here, moment, settings.closures)
+        if self._progress.is_stuck(settings.patience):
+            self._progress = Progress()
+            self._closures = self._closures.blamed(leg, stamp, settings.closures)
             self._times_stuck += 1
             self._explore_until = stamp + settings.detour * self._times_stuck
         return plan
-
-    def _note_closed(self, plan: Plan, leg: Leg, stamp: float) -> None:
-        """Take a gateway to be closed if the robot stays close to it for long and does not get through.
-
-        Time counts twice where nothing behind it can be come near to.
-        """
-        here, settings = self.surroundings.odom_from_base.position, self.settings
-        if self._facing and math.dist(here, self._faced_from) > 2.0 * settings.close_by:
-            self._facing = {}
-        if not leg.gateway_id or float(np.hypot(*leg.middle)) > settings.close_by:
-            return
-        if not self._facing:
-            self._faced_from = here
-        weight = 2.0 if plan.gap > settings.behind else 1.0
-        faced = self._facing.get(leg.gateway_id, 0.0) + weight * settings.plan_every
-        self._facing[leg.gateway_id] = faced
-        if faced > settings.patience:
-            self._closed[leg.gateway_id] = stamp
-            del self._facing[leg.gateway_id]
-
-    def _is_stuck(self, stamp: float) -> bool:
-        """Tell whether the robot has not got away from here for long, though nothing told it to stay."""
-        here, settings = self.surroundings.odom_from_base.position, self.settings
-        for lasting, reach in ((settings.patience, 0.3), (5.0 * settings.patience, 2.0)):
-            lately = [(x, y) for then, x, y in self._moved_at if stamp - then <= lasting]
-            if stamp - self._moved_at[0][0] >= lasting and max(math.dist(here, at) for at in lately) < reach:
-                return True
-        return False
-
-    def _remember(self, stamp: float) -> None:
-        """Remember when the robot was where."""
-        x, y = self.surroundings.odom_from_base.position.tolist()
-        self._moved_at.append((stamp, x, y))
-        while stamp - self._moved_at[0][0] > 6.0 * self.settings.patience:
-            self._moved_at.popleft()
 
     def _look_around(self) -> None:
         """Turn on the spot until all was seen: a scanner that sees all around need not turn."""
         self._turn_left = self._blind if self._blind > BLIND else 0.0
 
-    def _explore(self, reach: Reach, stamp: float, estimate: Estimate) -> Plan:
+    def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
         """Drive to where the places held possible would look most different; keep to what was begun."""
         if self._plan is not None and self._plan.behavior is Behavior.EXPLORE:
-            if self._is_stuck(stamp):
-                self._moved_at.clear()
+            if self._progress.is_stuck(self.settings.patience):
+                self._progress = Progress()
                 self._vain = np.vstack([self._vain, self._plan.target])[-VAIN:]
             else:
                 away = np.hypot(*(reach.points - self._plan.target).T)
@@ -334,7 +295,7 @@ class Navigator:
             gateway_id=leg.gateway_id if leg else "",
             target=target,
             distance=leg.distance if leg else math.inf,
-            closed_gateway_ids=tuple(self._closed),
+            closed_gateway_ids=self._closures.gateway_ids,
             times_lost=self._times_lost,
             outcome=self._outcome,
             reason=self._reason,
