@@ -21,7 +21,7 @@ from worlds_from_logs import world_of
 
 DATA = Path(__file__).resolve().parents[1] / ".." / "shared" / "data"
 BUILDINGS = ("aces", "belgioioso", "csail", "fhw", "freiburg-079", "freiburg-101")
-TUNED = ("aces", "csail", "freiburg-079")
+TUNED = ("aces", "belgioioso", "csail", "freiburg-079")
 HANDS = ("draftsman", "quick", "schematic")
 PACKED_HANDS = ("careful", "quick")
 SAMPLES = 4000  # random poses of which those are kept that a robot can stand at
