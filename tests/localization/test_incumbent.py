@@ -96,7 +96,7 @@ def test_an_incumbent_that_is_not_beaten_has_credit(gains, confidence):
 
 
 def test_its_worth_is_settled_when_the_challenger_begins_to_lead():
-    faded = Incumbent(SOMEWHERE, confidence=0.3, stake=10.0, lead=1.0)
+    faded = Incumbent(SOMEWHERE, confidence=0.3, odds=SETTINGS.odds, stake=10.0, lead=1.0)
 
     assert 10.0 == faded.contested(SOMEWHERE, 1.0, SETTINGS).stake
     assert SETTINGS.odds * 0.3 == faded.contested(SOMEWHERE, -1.0, SETTINGS).stake
@@ -149,7 +149,7 @@ def test_how_many_hypotheses_there_are_is_no_gain():
     assert math.isclose(0.0, gain_of((before, after_look), (its_before, its_after)), abs_tol=1e-12)
 
 
-@pytest.mark.parametrize("name", ["odds", "least", "reach"])
+@pytest.mark.parametrize("name", ["told", "odds", "least", "reach"])
 def test_worths_are_not_negative(name):
     with pytest.raises(ValueError, match=f"{name} must be >= 0"):
         IncumbentSettings(**{name: -1.0})

@@ -18,7 +18,8 @@ from pilotage.localization.estimate import Hypothesis
 class IncumbentSettings:
     """What it takes to give a place up."""
 
-    odds: float = 40.0  # log-odds that full confidence is worth
+    told: float = 40.0  # log-odds that a start which the user gave is worth
+    odds: float = 8.0  # log-odds that full confidence in a place which the robot found is worth
     most: float = 1.0  # log-odds that one look can add: for a while any place may be drawn wrong
     least: float = 1.0  # log-odds below which nothing is worth defending
     reach: float = 4.0  # [m] from the place within which hypotheses are the incumbent's
@@ -26,7 +27,7 @@ class IncumbentSettings:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("odds", "least", "reach"):
+        for name in ("told", "odds", "least", "reach"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
         if not self.most > 0.0:
@@ -41,6 +42,7 @@ class Incumbent:
 
     belief: Belief
     confidence: float  # [0..1] that the robot is where this belief holds it possible, anywhere there
+    odds: float  # log-odds that full confidence is worth
     stake: float  # log-odds by which the challenger must lead
     lead: float = 0.0  # log-odds by which it does
 
@@ -55,8 +57,8 @@ class Incumbent:
         What it is worth is settled when the challenger begins to lead.
         """
         lead = max(self.lead + max(-settings.most, min(settings.most, gain)), 0.0)
-        stake = settings.odds * self.confidence if lead == 0.0 else self.stake
-        return Incumbent(belief, self.confidence, stake, lead)
+        stake = self.odds * self.confidence if lead == 0.0 else self.stake
+        return Incumbent(belief, self.confidence, self.odds, stake, lead)
 
     @property
     def credit(self) -> float:
@@ -81,7 +83,7 @@ def incumbent_at(
     if not members.any():
         return None
     own = Belief(belief.states[:, members], belief.log_weights[members])
-    return Incumbent(own.resampled(settings.count, rng), confidence, stake)
+    return Incumbent(own.resampled(settings.count, rng), confidence, settings.odds, stake)
 
 
 def gain_of(belief: tuple[Belief, Belief], incumbent: tuple[Belief, Belief]) -> float:

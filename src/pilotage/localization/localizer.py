@@ -106,8 +106,9 @@ class Localizer:
         self._search_due = False
         self._incumbent: Incumbent | None = None  # whose belief is believed, if not this one
         if start is not None:
+            worth = self.settings.incumbent.told
             own = self.belief.resampled(self.settings.incumbent.count, self._rng)
-            self._incumbent = Incumbent(own, 1.0, self.settings.incumbent.odds)
+            self._incumbent = Incumbent(own, 1.0, odds=worth, stake=worth)
         self._confidence = 0.0 if start is None else 1.0
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
