@@ -17,9 +17,9 @@ import numpy as np
 from shapely import Geometry, LineString, MultiPolygon, Point, union_all
 
 import pilotage
+from drawing import CAREFUL, QUICK, Hand, Sheet, smooth, trembling
 from floors import BUILDINGS, Building
 from floors.plan import Points
-from drawing import CAREFUL, QUICK, Hand, Sheet, smooth, trembling
 from pilotage.geometry import Array
 
 SEED = 2001
