@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from buildings import flat
 from pilotage.geometry import Polyline
 from pilotage.localization.placement import Placement
-from pilotage.maps import DecompositionSettings, RouteError, RouteSettings, SchematicMap, decompose
+from pilotage.maps import DecompositionSettings, Roads, RouteError, RouteSettings, SchematicMap, decompose
 from pilotage.navigation.guidance import inside, lead
 from strategies import angles, scales
 
@@ -33,13 +33,16 @@ QUARTERS = (
     [(8, 5), (10, 5)],
 )
 """Four rooms, each with a door to two others [m]."""
-ROUTE = RouteSettings()
 GOAL = (13.0, 2.5)
 
 
 def decomposed(strokes, scale=1.0):
     drawn = (Polyline.through(scale * np.array(stroke, dtype=float)) for stroke in strokes)
     return decompose(SchematicMap(tuple(drawn)), DecompositionSettings())
+
+
+def led(placement, graph, goal, closed=()):
+    return lead(placement, Roads(graph, RouteSettings()), goal, closed)
 
 
 ROOMS, RING, FLAT = decomposed(SUITE), decomposed(QUARTERS), decompose(flat(), DecompositionSettings())
@@ -61,7 +64,7 @@ small = st.floats(-0.5, 0.5)
 @given(st.floats(0.5, 4.5), st.floats(0.5, 4.5), angles)
 def test_the_robot_heads_for_a_point_behind_the_gateway_in_the_next_cell(x, y, heading):
     placement = placed(x, y, heading)
-    leg = lead(placement, ROOMS, GOAL, ROUTE)
+    leg = led(placement, ROOMS, GOAL)
 
     assert ROOMS.cell_at((7.5, 2.5)) == leg.next_cell_id
     gateway = ROOMS.gateway(leg.gateway_id)
@@ -75,7 +78,7 @@ def test_the_robot_heads_for_a_point_behind_the_gateway_in_the_next_cell(x, y, h
 
 def test_the_way_leads_from_the_robot_to_the_goal():
     placement = placed(1.0, 2.5, 0.7)
-    leg = lead(placement, ROOMS, GOAL, ROUTE)
+    leg = led(placement, ROOMS, GOAL)
 
     assert [0.0, 0.0] == leg.way[0].tolist()
     np.testing.assert_allclose(GOAL, on_paper(placement, leg.way[-1]))
@@ -84,7 +87,7 @@ def test_the_way_leads_from_the_robot_to_the_goal():
 
 def test_in_its_own_cell_the_robot_heads_for_the_goal_itself():
     placement = placed(11.0, 1.0, 2.0)
-    leg = lead(placement, ROOMS, GOAL, ROUTE)
+    leg = led(placement, ROOMS, GOAL)
 
     assert ("", "") == (leg.gateway_id, leg.next_cell_id)
     np.testing.assert_allclose(GOAL, on_paper(placement, leg.point))
@@ -93,7 +96,7 @@ def test_in_its_own_cell_the_robot_heads_for_the_goal_itself():
 
 
 def test_a_robot_that_stands_at_the_goal_has_nowhere_to_go():
-    leg = lead(placed(*GOAL), ROOMS, GOAL, ROUTE)
+    leg = led(placed(*GOAL), ROOMS, GOAL)
 
     assert 0.0 == pytest.approx(leg.distance)
     np.testing.assert_allclose([0.0, 0.0], leg.point, atol=1e-9)
@@ -102,7 +105,7 @@ def test_a_robot_that_stands_at_the_goal_has_nowhere_to_go():
 @given(st.floats(-0.3, 0.3), st.floats(-0.2, 0.2), angles)
 def test_a_robot_in_a_gateway_heads_for_what_comes_after_it(along, aside, heading):
     placement = placed(5.0 + along, 2.5 + aside, heading)
-    leg = lead(placement, ROOMS, GOAL, ROUTE)
+    leg = led(placement, ROOMS, GOAL)
 
     behind = on_paper(placement, leg.point)
     assert ROOMS.cell_at((12.0, 2.5)) == ROOMS.cell_at(behind)
@@ -111,7 +114,7 @@ def test_a_robot_in_a_gateway_heads_for_what_comes_after_it(along, aside, headin
 @given(st.floats(0.5, 4.5), st.floats(0.5, 4.5), angles, small, small)
 def test_a_stretched_place_means_the_same_points_of_the_drawing(x, y, heading, p, q):
     straight, stretched = placed(x, y), placed(x, y, heading, stretch=(p, q))
-    first, second = (lead(one, ROOMS, GOAL, ROUTE) for one in (straight, stretched))
+    first, second = (led(one, ROOMS, GOAL) for one in (straight, stretched))
 
     assert first.gateway_id == second.gateway_id
     np.testing.assert_allclose(on_paper(straight, first.point), on_paper(stretched, second.point))
@@ -122,8 +125,8 @@ def test_a_stretched_place_means_the_same_points_of_the_drawing(x, y, heading, p
 @pytest.mark.parametrize("scale", [0.01, 40.0])
 def test_the_robot_sees_the_same_whatever_the_scale_of_the_drawing(scale):
     graph = decomposed(SUITE, scale)
-    first = lead(placed(1.0, 1.0, 0.5), ROOMS, GOAL, ROUTE)
-    second = lead(placed(scale, scale, 0.5, scale=scale), graph, (scale * GOAL[0], scale * GOAL[1]), ROUTE)
+    first = led(placed(1.0, 1.0, 0.5), ROOMS, GOAL)
+    second = led(placed(scale, scale, 0.5, scale=scale), graph, (scale * GOAL[0], scale * GOAL[1]))
 
     np.testing.assert_allclose(first.point, second.point, atol=0.02)
     assert first.distance == pytest.approx(second.distance, abs=0.02)
@@ -131,8 +134,8 @@ def test_the_robot_sees_the_same_whatever_the_scale_of_the_drawing(scale):
 
 @given(angles, scales)
 def test_a_turn_of_the_robot_turns_what_it_heads_for(turn, scale):
-    first = lead(placed(2.0, 1.0, 0.0, scale=scale), ROOMS, GOAL, ROUTE)
-    second = lead(placed(2.0, 1.0, turn, scale=scale), ROOMS, GOAL, ROUTE)
+    first = led(placed(2.0, 1.0, 0.0, scale=scale), ROOMS, GOAL)
+    second = led(placed(2.0, 1.0, turn, scale=scale), ROOMS, GOAL)
 
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = second.point @ np.array([[cosine, sine], [-sine, cosine]])
@@ -141,8 +144,8 @@ def test_a_turn_of_the_robot_turns_what_it_heads_for(turn, scale):
 
 def test_a_closed_gateway_leads_elsewhere():
     placement, goal = placed(2.0, 2.0), (8.0, 2.0)
-    first = lead(placement, RING, goal, ROUTE)
-    second = lead(placement, RING, goal, ROUTE, (first.gateway_id,))
+    first = led(placement, RING, goal)
+    second = led(placement, RING, goal, (first.gateway_id,))
 
     assert RING.cell_at(goal) == first.next_cell_id
     assert RING.cell_at((2.0, 8.0)) == second.next_cell_id
@@ -155,12 +158,12 @@ def test_where_all_gateways_are_closed_there_is_no_way():
     closed = [gateway.gateway_id for gateway in RING.gateways_of(RING.cell_at((2.0, 2.0)))]
 
     with pytest.raises(RouteError, match="no way leads"):
-        lead(placement, RING, (8.0, 8.0), ROUTE, closed)
+        led(placement, RING, (8.0, 8.0), closed)
 
 
 @pytest.mark.parametrize("place", [(-3.0, 2.0), (5.0, 1.0), (17.0, -2.0), (2.0, 5.0)])
 def test_a_robot_that_is_believed_to_be_in_a_wall_is_led_all_the_same(place):
-    leg = lead(placed(*place), ROOMS, (7.5, 1.0), ROUTE)
+    leg = led(placed(*place), ROOMS, (7.5, 1.0))
 
     assert ROOMS.cell_at((7.5, 1.0)) == leg.route.cell_ids[-1]
     assert np.isfinite(leg.point).all()
@@ -185,7 +188,7 @@ def test_a_point_is_taken_inside_to_the_nearest_cell_and_stays_if_it_is(x, y):
 def test_around_a_bend_the_robot_heads_for_where_the_way_goes_on():
     block = ([(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)], [(3, 3), (17, 3), (17, 7), (3, 7), (3, 3)])
     placement = placed(10.0, 1.0, 1.0)
-    leg = lead(placement, decomposed(block), (18.5, 8.5), ROUTE)
+    leg = led(placement, decomposed(block), (18.5, 8.5))
 
     bend = on_paper(placement, leg.middle)
     assert "" == leg.gateway_id

@@ -36,7 +36,7 @@ def drive_and_record(
     from pilotage.evaluation.drive import drive
     from pilotage.figures.recording import Recording
 
-    graph = navigator.graph
+    graph = navigator.roads.graph
     with journal_in(folder, sketch) as write:
         steps, scenes = follow(drive(navigator, simulator), graph, write)
     return Recording(sketch, world, navigator.goal, steps, scenes, graph)

@@ -18,7 +18,7 @@ from pilotage.figures.recording import Recording
 from pilotage.figures.trail import Stretch, find_stretches
 from pilotage.geometry import Array
 from pilotage.localization import Status
-from pilotage.maps import CellGraph, RouteError, RouteSettings, find_route
+from pilotage.maps import Roads, RouteError, RouteSettings
 from pilotage.navigation import Step
 
 ROBOT = 0.032
@@ -32,6 +32,7 @@ class BelievedView:
 
     def __init__(self, axes: Axes, drive: Recording) -> None:
         self.drive, self.size = drive, drive.sketch.diagonal
+        self.roads = Roads(drive.graph, RouteSettings()) if drive.graph is not None else None
         positions = np.array([step.estimate.sketch_from_base.pose.position for step in drive.steps])
         found = find_stretches(drive.steps, positions, JUMP * self.size)
         self.stretches = [one for one in found if one.located]
@@ -56,8 +57,8 @@ class BelievedView:
         self.cell.set_visible(located)
         self.route.set_visible(located and step.outcome is None)
         self.gateway.set_visible(located and step.outcome is None)
-        if located and self.drive.graph is not None:
-            self.show_plan(step, self.drive.graph)
+        if located and self.roads is not None:
+            self.show_plan(step, self.roads)
 
     def show_places(self, step: Step) -> None:
         """Draw an arrow for each place held possible, the fainter the less probable, the claimed one last."""
@@ -68,10 +69,11 @@ class BelievedView:
         opacities = [FAINTEST + (1.0 - FAINTEST) * share for share in shares]
         self.robots.set_facecolor([to_rgba(style.ACCENT, opacity) for opacity in opacities])
 
-    def show_plan(self, step: Step, graph: CellGraph) -> None:
+    def show_plan(self, step: Step, roads: Roads) -> None:
         """Draw the cell, the gateway that is next, and the route."""
+        graph = roads.graph
         self.cell.set_path(outline_of(graph.cell(step.estimate.cell_id)))
-        self.route.set_data(*route_ahead(step, graph, self.drive.goal).T)
+        self.route.set_data(*route_ahead(step, roads, self.drive.goal).T)
         gateway = graph.gateway(step.gateway_id).segment if step.gateway_id else np.empty((0, 2))
         self.gateway.set_data(*gateway.T)
 
@@ -128,10 +130,10 @@ def show_way(lines: LineCollection, stretches: Sequence[Stretch], k: int) -> Non
     lines.set_color([one.color for one in gone])
 
 
-def route_ahead(step: Step, graph: CellGraph, goal: tuple[float, float]) -> Array:
+def route_ahead(step: Step, roads: Roads, goal: tuple[float, float]) -> Array:
     """Return the way from where the robot believes to be to its goal, (n, 2); empty if there is none."""
     pose = step.estimate.sketch_from_base.pose
     try:
-        return find_route(graph, (pose.x, pose.y), goal, RouteSettings(), step.closed_gateway_ids).way
+        return roads.find((pose.x, pose.y), goal, step.closed_gateway_ids).way
     except RouteError:
         return np.empty((0, 2))

@@ -7,7 +7,8 @@ from pilotage.maps.free_space import FreeSpace, FreeSpaceSettings, NotEnclosedEr
 from pilotage.maps.merging import MergeSettings
 from pilotage.maps.places import check_place, check_reachable, find_labeled
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
-from pilotage.maps.route import Route, RouteError, RouteSettings, find_route
+from pilotage.maps.roads import Roads, find_route
+from pilotage.maps.route import Route, RouteError, RouteSettings
 from pilotage.maps.schematic import Label, SchematicMap
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",
+    "Roads",
     "Route",
     "RouteError",
     "RouteSettings",

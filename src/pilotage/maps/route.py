@@ -1,21 +1,12 @@
-"""Find a route through the cell graph (Wolter 2001, section 4.2)."""
+"""A route through the cell graph, and what it costs (Wolter 2001, section 4.2)."""
 
-from collections.abc import Collection
 from dataclasses import dataclass
-from itertools import pairwise
-
-import numpy as np
-import rustworkx
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, frozen_points
-from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway
-from pilotage.maps.walking import find_sights, jutting_corners
+from pilotage.maps.cells import CellSize
 
 Point = tuple[float, float]
-
-START, GOAL = 0, 1
-"""Their numbers among the stops of the network."""
 
 
 class RouteError(PilotageError):
@@ -66,86 +57,3 @@ class Route:
         cells, gateways = len(self.cell_ids), len(self.gateway_ids)
         if cells != gateways + 1:
             raise ValueError(f"a route needs one gateway fewer than cells, got {gateways} and {cells}")
-
-
-def find_route(
-    graph: CellGraph, start: Point, goal: Point, settings: RouteSettings, closed: Collection[str] = ()
-) -> Route:
-    """Find the cheapest route between two points [drawing units], not through `closed` gateways.
-
-    Inside a cell the way is the shortest one. Raises RouteError if none leads from start to goal.
-    """
-    network = Network(graph, start, goal, settings, closed)
-    stops = network.cheapest()
-    if not stops:
-        first, last = graph.cell_at(start), graph.cell_at(goal)
-        raise RouteError(f"no way leads from cell {first} to cell {last}: no gateways join them")
-    legs = [network.legs.get_edge_data(a, b) for a, b in pairwise(stops)]
-    gateways = tuple(leg.gateway_id for leg in legs if leg.gateway_id)
-    cells = [graph.cell_at(start)]
-    for gateway_id in gateways:
-        first, second = graph.gateway(gateway_id).cell_ids
-        cells.append(second if cells[-1] == first else first)
-    way = np.array([network.points[stop] for stop in stops])
-    moved = np.append(True, (way[1:] != way[:-1]).any(axis=1))
-    moved[-1] = True
-    way = way[moved] if moved.sum() > 1 else np.stack([way[0], way[-1]])
-    return Route(tuple(cells), gateways, sum(leg.cost for leg in legs), way)
-
-
-@dataclass(frozen=True, slots=True)
-class Leg:
-    """From stop to stop: a walk in a cell, or the step through a gateway."""
-
-    cost: float
-    gateway_id: str = ""
-
-
-class Network:
-    """Start, goal, corners and both faces of every open gateway, joined where one sees the other."""
-
-    def __init__(
-        self, graph: CellGraph, start: Point, goal: Point, settings: RouteSettings, closed: Collection[str]
-    ) -> None:
-        self.points = [np.array(start, dtype=np.float64), np.array(goal, dtype=np.float64)]
-        self.legs = rustworkx.PyGraph()
-        self.legs.add_nodes_from([START, GOAL])
-        self.settings, self.diameter = settings, graph.diameter
-        stops_in: dict[str, list[int]] = {cell.cell_id: [] for cell in graph.cells}
-        stops_in[graph.cell_at(start)].append(START)
-        stops_in[graph.cell_at(goal)].append(GOAL)
-        for gateway in graph.gateways:
-            if gateway.gateway_id not in closed:
-                for cell_id, stop in zip(gateway.cell_ids, self.add_gateway(gateway), strict=True):
-                    stops_in[cell_id].append(stop)
-        for cell in graph.cells:
-            if len(stops_in[cell.cell_id]) > 1:
-                self.add_walks(cell, stops_in[cell.cell_id])
-
-    def add_stop(self, point: Array) -> int:
-        """Add a place where a way may bend."""
-        self.points.append(point)
-        return int(self.legs.add_node(len(self.points) - 1))
-
-    def add_gateway(self, gateway: Gateway) -> tuple[int, int]:
-        """Add both faces of a gateway, and the step from one to the other."""
-        faces = self.add_stop(gateway.middle), self.add_stop(gateway.middle)
-        cost = self.settings.passing(gateway.width / self.diameter)
-        self.legs.add_edge(*faces, Leg(cost, gateway.gateway_id))
-        return faces
-
-    def add_walks(self, cell: Cell, stops: list[int]) -> None:
-        """Join stops of a cell, and the corners that jut into it, where one sees the other."""
-        stops = stops + [self.add_stop(corner) for corner in jutting_corners(cell)]
-        points = np.array([self.points[stop] for stop in stops])
-        price = self.settings.walking(cell.size) / self.diameter
-        for first, second in find_sights(cell, points).tolist():
-            length = float(np.hypot(*(points[second] - points[first])))
-            self.legs.add_edge(stops[first], stops[second], Leg(price * length))
-
-    def cheapest(self) -> list[int]:
-        """Return the stops of the cheapest way; none if there is no way."""
-        found = rustworkx.dijkstra_shortest_paths(
-            self.legs, START, target=GOAL, weight_fn=lambda leg: leg.cost
-        )
-        return list(found[GOAL]) if GOAL in found else []

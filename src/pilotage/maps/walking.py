@@ -21,11 +21,14 @@ def jutting_corners(cell: Cell) -> Array:
     return np.concatenate(corners)
 
 
-def find_sights(cell: Cell, stops: Array) -> NDArray[np.int64]:
-    """Find the pairs of stops (n, 2) that see each other inside a cell, (k, 2)."""
-    first, second = np.triu_indices(len(stops), 1)
+def room_of(cell: Cell) -> shapely.Polygon:
+    """Widen a cell by a grain, ready for many questions about sight."""
     room = cell.polygon.buffer(GRAZE * np.sqrt(cell.polygon.area), join_style="mitre")
     shapely.prepare(room)
-    lines = shapely.linestrings(np.stack([stops[first], stops[second]], axis=1))
-    sees = shapely.covers(room, lines)
-    return np.column_stack([first[sees], second[sees]])
+    return room
+
+
+def find_sights(room: shapely.Polygon, here: Array, there: Array) -> NDArray[np.bool_]:
+    """Tell which of the points `there` (n, 2) are in sight of `here` (2,) inside a room, (n,)."""
+    lines = shapely.linestrings(np.stack([np.broadcast_to(here, there.shape), there], axis=1))
+    return np.asarray(shapely.covers(room, lines))

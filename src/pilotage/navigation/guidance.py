@@ -8,7 +8,7 @@ import shapely
 
 from pilotage.geometry import Array
 from pilotage.localization.placement import Placement
-from pilotage.maps import CellGraph, Gateway, Route, RouteSettings, find_route
+from pilotage.maps import CellGraph, Gateway, Roads, Route
 from pilotage.maps.route import Point
 
 PASSED = 0.4
@@ -39,15 +39,13 @@ class Leg:
         return self.route.cell_ids[1] if len(self.route.cell_ids) > 1 else ""
 
 
-def lead(
-    placement: Placement, graph: CellGraph, goal: Point, settings: RouteSettings, closed: Collection[str] = ()
-) -> Leg:
+def lead(placement: Placement, roads: Roads, goal: Point, closed: Collection[str] = ()) -> Leg:
     """Find the next point to head for from where the robot is believed to be.
 
     Raises RouteError if no way leads to the goal through gateways that are not `closed`.
     """
-    start = inside(graph, placement.position)
-    route = find_route(graph, start, inside(graph, goal), settings, closed)
+    graph = roads.graph
+    route = roads.find(inside(graph, placement.position), inside(graph, goal), closed)
     way = placement.base_from_sketch(route.way)
     way[0] = 0.0
     away = np.hypot(way[:, 0], way[:, 1])

@@ -7,7 +7,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2, Twist
 from pilotage.localization import Estimate, Localizer, Status
-from pilotage.maps import NotEnclosedError, RouteError, RouteSettings, check_place
+from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
 from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
@@ -85,8 +85,8 @@ class Navigator:
         self.goal = goal
         if localizer.atlas.cell_graph is None:
             raise NotEnclosedError("a drawing to drive by must enclose free space, this one has no cells")
-        self.graph = localizer.atlas.cell_graph
-        check_place(self.graph, goal, "goal")
+        check_place(localizer.atlas.cell_graph, goal, "goal")
+        self.roads = Roads(localizer.atlas.cell_graph, self.settings.route)
         self.surroundings = Surroundings.unseen(self.settings.surroundings)
         self.trail = np.zeros((1, 2))  # where the robot was, in odom [m]
         self._perceived: Odometry | None = None
@@ -192,7 +192,7 @@ class Navigator:
         self._closures = self._closures.lasting(stamp, self.settings.closures)
         for closed in (self._closures.gateway_ids, ()):
             try:
-                return lead(placement, self.graph, self.goal, self.settings.route, closed)
+                return lead(placement, self.roads, self.goal, closed)
             except RouteError:
                 if not closed:
                     return None
