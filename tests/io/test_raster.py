@@ -144,7 +144,7 @@ def test_a_negated_map_server_file_turns_shades_round(tmp_path):
     [
         ("resolution: 0.05\n", "must name an image"),
         ("image: map.png\nfree_thresh: low\n", "must give numbers"),
-        ("image: none.png\n", "must be a file that exists"),
+        ("image: none.png\n", "there is no such file"),
     ],
 )
 def test_a_broken_map_server_file_is_refused(tmp_path, text, rule):
@@ -164,7 +164,7 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
         open_map(blank)
     with pytest.raises(FileError, match="cannot be read"):
         open_map(noise)
-    with pytest.raises(FileError, match="must be a file that exists"):
+    with pytest.raises(FileError, match="there is no such file"):
         open_map(tmp_path / "none.png")
 
 

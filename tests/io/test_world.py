@@ -47,7 +47,7 @@ def test_a_map_is_as_large_as_it_says_and_lies_where_it_says(tmp_path):
     ("entries", "rule"),
     [
         ({"image": None}, "must name an image"),
-        ({"image": "nowhere.png"}, "exists"),
+        ({"image": "nowhere.png"}, "there is no such file"),
         ({"resolution": None}, "resolution as a number"),
         ({"resolution": 0}, "resolution > 0"),
         ({"resolution": "fine"}, "resolution as a number"),

@@ -19,7 +19,9 @@ def faced(seconds, *, gap=0.0, away=1.0, here=lambda _: HERE, gateways=("g1",)):
     closures = Closures()
     for step in range(int(seconds / 0.5)):
         ahead = leg(away, gateways[step % len(gateways)])
-        closures = closures.faced(ahead, gap, here(step), (0.5 * step, 0.5, 8.0), SETTINGS)
+        closures = closures.faced(
+            ahead, SETTINGS, here=here(step), gap=gap, stamp=0.5 * step, lasted=0.5, patience=8.0
+        )
     return closures
 
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pilotage.geometry import Pose2, Twist
-from pilotage.navigation.steering import SteeringSettings, brake, steer
+from pilotage.navigation.steering import SteeringSettings, steer, turn_on_the_spot
 from pilotage.simulation import BodySettings
 from pilotage.simulation.body import rolled
 from strategies import angles
@@ -47,7 +47,7 @@ def stop(start, moving):
     """Brake until the robot stands."""
     pose, now = start, moving
     while now.linear > 0.0:
-        now = BODY.obeyed(now, brake(now), TIME_STEP)
+        now = BODY.obeyed(now, turn_on_the_spot(0.0, now), TIME_STEP)
         yield pose, now
         pose = pose @ rolled(now, TIME_STEP)
     yield pose, now
@@ -160,11 +160,11 @@ def test_a_robot_that_moves_stops_on_its_arc_before_it_turns_back():
     moving = Twist(0.6, -0.4)
     command = steer(-AHEAD, NOTHING, BODY.radius, SETTINGS, moving)
 
-    assert Twist(0.0, -0.4) == command == brake(moving)
+    assert Twist(0.0, -0.4) == command == turn_on_the_spot(0.0, moving)
 
 
 def test_a_robot_that_stands_is_braked_without_turning():
-    assert Twist(0.0, 0.0) == brake(STILL) == brake(Twist(0.0, 0.5))
+    assert Twist(0.0, 0.0) == turn_on_the_spot(0.0, STILL) == turn_on_the_spot(0.0, Twist(0.0, 0.5))
 
 
 @pytest.mark.parametrize("away", [0.231, 0.25])

@@ -15,7 +15,7 @@ from pilotage.cli.simplify import simplify
 
 app = typer.Typer(
     name="pilotage",
-    help="Find a robot's place in a hand-drawn map of a building from its laser scans.\n\n"
+    help="Find a robot's place in a hand-drawn map from its laser scans, and drive it from there.\n\n"
     "Begin with **pilotage demo**.",
     rich_markup_mode="markdown",
     no_args_is_help=True,

@@ -74,7 +74,7 @@ def draw_believed(axes: Axes, drive: Recording) -> None:
     located = np.array([step.estimate.status is Status.LOCATED for step in steps])
     draw_marks(axes, drive.times, positions, located)
     if located.any():
-        draw_ring(axes, positions[int(np.argmax(located))])
+        style.draw_ring(axes, positions[int(np.argmax(located))])
     draw_goal(axes, drive.goal)
     style.draw_robot(axes, poses[-1], 0.03 * size)
 
@@ -97,7 +97,7 @@ def draw_true(axes: Axes, drive: Recording) -> None:
     positions = np.array([pose.position for pose in poses])
     draw_stretches(axes, find_stretches(drive.steps, positions), STILL * size)
     draw_marks(axes, drive.times, positions, np.full(len(poses), fill_value=True))
-    draw_ring(axes, positions[0])
+    style.draw_ring(axes, positions[0])
     if drive.true_goal is not None:
         draw_goal(axes, drive.true_goal)
     style.draw_robot(axes, poses[-1], 0.03 * size)
@@ -145,19 +145,6 @@ def draw_marks(axes: Axes, times: Array, positions: Array, shown: NDArray[np.boo
                 x, y, clock(mark), fontsize=5.8, color=style.INK, ha="center", va="center",
                 zorder=10, bbox=BOX,
             )  # fmt: skip
-
-
-def draw_ring(axes: Axes, position: Array) -> None:
-    """Draw where it began."""
-    axes.scatter(
-        position[0],
-        position[1],
-        s=64.0,
-        facecolor="white",
-        edgecolor=style.TRAIL,
-        linewidths=2.0,
-        zorder=10.5,
-    )
 
 
 def draw_goal(axes: Axes, goal: tuple[float, float]) -> None:

@@ -75,17 +75,7 @@ def draw_page(axes: Axes, sketch: SchematicMap, estimates: Sequence[Estimate], t
     draw_rivals(axes, estimates[-1], sketch.diagonal)
     located = [estimate for estimate in estimates if estimate.status is Status.LOCATED]
     if located:
-        first = located[0].sketch_from_base.pose.position
-        axes.scatter(
-            first[0],
-            first[1],
-            s=70.0,
-            facecolor="white",
-            edgecolor=style.TRAIL,
-            linewidths=2.0,
-            zorder=9,
-            label="first located",
-        )
+        style.draw_ring(axes, located[0].sketch_from_base.pose.position, label="first located")
     style.draw_robot(axes, estimates[-1].sketch_from_base.pose, 0.03 * sketch.diagonal)
     axes.scatter([], [], marker=">", s=60.0, color=style.ACCENT, label="the robot now")
 

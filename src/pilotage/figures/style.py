@@ -78,6 +78,20 @@ def draw_robot(axes: Axes, pose: Pose2, size: float, color: str = ACCENT) -> Non
     axes.fill(*outline.T, facecolor=color, edgecolor="white", linewidth=1.0, joinstyle="round", zorder=11)
 
 
+def draw_ring(axes: Axes, position: Array, label: str | None = None) -> None:
+    """Draw where something begins, at (2,)."""
+    axes.scatter(
+        position[0],
+        position[1],
+        s=64.0,
+        facecolor="white",
+        edgecolor=TRAIL,
+        linewidths=2.0,
+        zorder=10.5,
+        label=label,
+    )
+
+
 def arrow(pose: Pose2, size: float) -> Array:
     """Return the outline of an arrowhead, (4, 2); size [units of the pose's frame] from tail to tip."""
     return pose @ (size * ARROW)

@@ -111,7 +111,7 @@ def read_picture(path: Path) -> Picture:
         with Image.open(path) as image:
             rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
     except FileNotFoundError as error:
-        raise FileError("a drawing must be a file that exists", path) from error
+        raise FileError("there is no such file", path) from error
     except (OSError, UnidentifiedImageError, ValueError, Image.DecompressionBombError) as error:
         raise FileError(f"a picture cannot be read ({error})", path) from error
     seen = rgba[..., 3] >= OPAQUE
@@ -206,7 +206,7 @@ def read_entries(path: Path) -> dict[str, str]:
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError as error:
-        raise FileError("a drawing must be a file that exists", path) from error
+        raise FileError("there is no such file", path) from error
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(f"a map_server file cannot be read ({error})", path) from error
     pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]

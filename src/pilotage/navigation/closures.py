@@ -55,14 +55,22 @@ class Closures:
         return replace(self, since={**self.since, leg.gateway_id: stamp})
 
     def faced(
-        self, leg: Leg, gap: float, here: Array, moment: tuple[float, float, float], settings: ClosureSettings
+        self,
+        leg: Leg,
+        settings: ClosureSettings,
+        *,
+        here: Array,
+        gap: float,
+        stamp: float,
+        lasted: float,
+        patience: float,
     ) -> "Closures":
-        """Close a gateway that the robot stays close to for long and does not get through.
+        """Close a gateway that the robot, `here` (2,) in odom [m], stays close to and does not get through.
 
-        `gap` [m] is how near one can come to the point behind it; where that is not near, time counts twice.
-        `moment` is the time [s], since when a plan was last made [s], and how long the robot may stay [s].
+        It is closed, at the time `stamp` [s], once the robot stayed longer than `patience` [s]; `lasted` [s]
+        is the time since it was last asked. `gap` [m] is how near one can come to the point behind the gateway;
+        where that is not near, time counts twice.
         """
-        stamp, lasted, patience = moment
         facing = self.facing
         if facing and math.dist(here, self.faced_from) > 2.0 * settings.close_by:
             facing = {}

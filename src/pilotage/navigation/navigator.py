@@ -12,7 +12,7 @@ from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
-from pilotage.navigation.steering import SLOW, STILL, SteeringSettings, brake, steer
+from pilotage.navigation.steering import STILL, SteeringSettings, steer, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Step
 from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
 from pilotage.perception import LaserScan, Odometry
@@ -63,6 +63,9 @@ class Plan:
         """The end of the way, (2,) in odom [m]."""
         return np.asarray(self.way[-1])
 
+
+TURNING = 0.7
+"""At this share of its fastest turn the robot looks around."""
 
 VAIN = 10
 """So many places are remembered that the robot could not get to."""
@@ -225,11 +228,15 @@ class Navigator:
             self._explore_until = stamp + settings.detour
             self._look_around()
             return None
-        here, moment = (
-            reach.surroundings.odom_from_base.position,
-            (stamp, settings.plan_every, settings.patience),
+        self._closures = self._closures.faced(
+            leg,
+            settings.closures,
+            here=reach.surroundings.odom_from_base.position,
+            gap=plan.gap,
+            stamp=stamp,
+            lasted=settings.plan_every,
+            patience=settings.patience,
         )
-        self._closures = self._closures.faced(leg, plan.gap, here, moment, settings.closures)
         if self._progress.is_stuck(settings.patience):
             self._progress = Progress()
             self._closures = self._closures.blamed(leg, stamp, settings.closures)
@@ -260,18 +267,17 @@ class Navigator:
 
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
         """Say what the wheels shall do."""
+        steering = self.settings.steering
         if self._outcome is not None:
-            return brake(self._moving), Behavior.REST
+            return turn_on_the_spot(0.0, self._moving), Behavior.REST
         if self._plan is None:
-            if self._moving.linear > SLOW:
-                return brake(self._moving), Behavior.LOOK_AROUND
-            return Twist(0.0, 0.7 * self.settings.steering.turn_rate), Behavior.LOOK_AROUND
+            return turn_on_the_spot(TURNING * steering.turn_rate, self._moving), Behavior.LOOK_AROUND
         base_from_odom = self.surroundings.odom_from_base.inverse()
         way = base_from_odom @ self._plan.way
         passed = int(np.hypot(way[:, 0], way[:, 1]).argmin())
         remembered = base_from_odom @ self.surroundings.things
         things = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < 0.1]])
-        command = steer(way[passed:], things, self.settings.radius, self.settings.steering, self._moving)
+        command = steer(way[passed:], things, self.settings.radius, steering, self._moving)
         waits = command.linear == 0.0 and abs(command.angular) < 0.05
         return command, Behavior.WAIT if waits else self._plan.behavior
 

@@ -52,20 +52,20 @@ def steer(
     bearing = math.atan2(ahead[1], ahead[0])
     angular = max(-settings.turn_rate, min(settings.turn_rate, settings.gain * bearing))
     if abs(bearing) <= settings.pivot:
-        left = float(np.hypot(*(way[-1] - way[0])))
-        fastest = min(settings.speed * math.cos(bearing) ** 2, math.sqrt(2.0 * settings.braking * left))
-        soonest = moving.linear - settings.braking * settings.delay / 2.0  # no robot slows down at once
+        to_end = float(np.hypot(*(way[-1] - way[0])))  # as the crow flies
+        fastest = min(settings.speed * math.cos(bearing) ** 2, math.sqrt(2.0 * settings.braking * to_end))
+        slowest = moving.linear - settings.braking * settings.delay / 2.0  # no robot slows down at once
         for share in SHARES:
             command = Twist(share * fastest, share * angular)
-            braking = Twist(max(command.linear, soonest), command.angular)
+            braking = Twist(max(command.linear, slowest), command.angular)
             if is_safe(braking, things, radius, settings):
                 return command
+    return turn_on_the_spot(angular, moving)
+
+
+def turn_on_the_spot(angular: float, moving: Twist) -> Twist:
+    """Turn [rad/s] once the robot stands; until then brake on the arc that it is on: it was found free."""
     return Twist(0.0, moving.angular if moving.linear > SLOW else angular)
-
-
-def brake(moving: Twist) -> Twist:
-    """Stop on the arc that the robot is on: it was found free."""
-    return Twist(0.0, moving.angular if moving.linear > SLOW else 0.0)
 
 
 def point_ahead(way: Array, things: Array, room: float, distance: float) -> Array:
