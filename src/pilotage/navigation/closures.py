@@ -68,8 +68,8 @@ class Closures:
         """Close a gateway that the robot, `here` (2,) in odom [m], stays close to and does not get through.
 
         It is closed, at the time `stamp` [s], once the robot stayed longer than `patience` [s]; `lasted` [s]
-        is the time since it was last asked. `gap` [m] is how near one can come to the point behind the gateway;
-        where that is not near, time counts twice.
+        is the time since it was last asked. `gap` [m] is how near one can come to the point behind the
+        gateway; where that is not near, time counts twice.
         """
         facing = self.facing
         if facing and math.dist(here, self.faced_from) > 2.0 * settings.close_by:

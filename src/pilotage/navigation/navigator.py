@@ -5,14 +5,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2, Twist
+from pilotage.geometry import Array, Twist, wrap_angle
 from pilotage.localization import Estimate, Localizer, Status
+from pilotage.localization.placement import Placement
 from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
 from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
-from pilotage.navigation.steering import STILL, SteeringSettings, steer, turn_on_the_spot
+from pilotage.navigation.reckoning import Reckoning
+from pilotage.navigation.steering import SteeringSettings, steer, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Step
 from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
 from pilotage.perception import LaserScan, Odometry
@@ -64,6 +66,9 @@ class Plan:
         return np.asarray(self.way[-1])
 
 
+TRAIL = 0.5
+"""So far [m] from where it was before, a place is remembered."""
+
 TURNING = 0.7
 """At this share of its fastest turn the robot looks around."""
 
@@ -92,11 +97,7 @@ class Navigator:
         self.roads = Roads(localizer.atlas.cell_graph, self.settings.route)
         self.surroundings = Surroundings.unseen(self.settings.surroundings)
         self.trail = np.zeros((1, 2))  # where the robot was, in odom [m]
-        self._perceived: Odometry | None = None
-        self._last: Odometry | None = None
-        self._moving = STILL
-        self._estimate: Estimate | None = None
-        self._cell_belief = 0.0
+        self._reckoning: Reckoning | None = None  # before the first scan
         self._began = 0.0
         self._plan: Plan | None = None
         self._planned = -math.inf
@@ -109,70 +110,46 @@ class Navigator:
         self._times_stuck = 0
         self._times_doubted = 0  # how often the robot came to where the goal should be, and was not sure
         self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
-        self._times_lost = 0
         self._outcome: Outcome | None = None
         self._reason = ""
 
     def step(self, scan: LaserScan, odometry: Odometry) -> Step:
         """Take one scan in, give one command out."""
-        estimate = self._localize(scan, odometry)
-        odom_from_base = self._odom_from_base(odometry)
-        self._moving = twist_between(self._last, odometry)
-        self._last = odometry
+        settings = self.settings
+        if self._reckoning is None:
+            self._reckoning = reckoning = self._begin(scan, odometry)
+        else:
+            reckoning = self._reckoning
+            reckoning.advance(scan, odometry, settings.perceive_every, settings.perceive_turn)
+        odom_from_base = reckoning.odom_from_base
         self.surroundings = self.surroundings.seen(scan, odom_from_base)
-        if np.hypot(*(self.trail[-1] - odom_from_base.position)) > 0.5:
+        if np.hypot(*(self.trail[-1] - odom_from_base.position)) > TRAIL:
             self.trail = np.vstack([self.trail, odom_from_base.position])
-        self._turn_left -= abs(Pose2(0.0, 0.0, odom_from_base.theta - self._heading).theta)
+        self._turn_left -= abs(wrap_angle(odom_from_base.theta - self._heading))
         self._heading = odom_from_base.theta
-        if self._outcome is None and scan.stamp - self._began >= self.settings.time_limit:
-            self._end(Outcome.GAVE_UP, f"the goal was not reached within {self.settings.time_limit:.0f} s")
+        if self._outcome is None and scan.stamp - self._began >= settings.time_limit:
+            self._end(Outcome.GAVE_UP, f"the goal was not reached within {settings.time_limit:.0f} s")
         waited = scan.stamp - self._planned
-        is_busy = self._perceived is odometry and waited < 2.0 * self.settings.plan_every
-        if self._outcome is None and waited >= self.settings.plan_every and not is_busy:
-            self._plan = self._make_plan(scan.stamp, estimate)
+        is_busy = reckoning.is_fresh and waited < 2.0 * settings.plan_every  # one thing at a time
+        if self._outcome is None and waited >= settings.plan_every and not is_busy:
+            self._plan = self._make_plan(scan.stamp, reckoning)
             self._planned = scan.stamp
-        return self._report(scan, estimate)
+        return self._report(scan, reckoning)
 
-    def _localize(self, scan: LaserScan, odometry: Odometry) -> Estimate:
-        """Give the localizer a scan if the robot moved; else keep what it said."""
-        if self._estimate is None or self._perceived is None:
-            self._began = scan.stamp
-            self._blind = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
-            self._estimate = self.localizer.update(scan, odometry)
-            self._perceived = odometry
-            self._cell_belief = self.localizer.belief_in(self._estimate.cell_id)
-            if self._estimate.status is Status.LOST:
-                self._look_around()
-            return self._estimate
-        motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
-        if (
-            math.hypot(motion.x, motion.y) < self.settings.perceive_every
-            and abs(motion.theta) < self.settings.perceive_turn
-        ):
-            return self._estimate
-        before = self._estimate
-        self._estimate = self.localizer.update(scan, odometry)
-        self._perceived = odometry
-        self._cell_belief = self.localizer.belief_in(self._estimate.cell_id)
-        if before and before.status is Status.LOCATED and self._estimate.status is Status.LOST:
-            self._times_lost += 1
-        return self._estimate
-
-    def _odom_from_base(self, odometry: Odometry) -> Pose2:
-        """Carry the registered pose on by what the wheels say since."""
-        assert self._perceived is not None
-        motion = self._perceived.odom_from_base.inverse() @ odometry.odom_from_base
-        return self.localizer.perception_map.odom_from_base @ motion
-
-    def _since_perceived(self) -> Pose2:
-        """Return the motion since the localizer was given a scan."""
-        return self.localizer.perception_map.odom_from_base.inverse() @ self.surroundings.odom_from_base
+    def _begin(self, scan: LaserScan, odometry: Odometry) -> Reckoning:
+        """Take the first scan in; look around if it does not tell where the robot is."""
+        self._began = scan.stamp
+        self._blind = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
+        reckoning = Reckoning(self.localizer, scan, odometry)
+        if reckoning.estimate.status is Status.LOST:
+            self._look_around()
+        return reckoning
 
     def _end(self, outcome: Outcome, reason: str) -> None:
         """Stop for good."""
         self._outcome, self._reason = outcome, reason
 
-    def _make_plan(self, stamp: float, estimate: Estimate) -> Plan | None:
+    def _make_plan(self, stamp: float, reckoning: Reckoning) -> Plan | None:
         """Decide what to do next; None to turn on the spot."""
         if self._turn_left > 0.0:
             self._progress = Progress()
@@ -182,16 +159,16 @@ class Navigator:
         reach = self.surroundings.reach(self.settings.radius)
         if len(reach.cells) == 0:
             return None
+        estimate = reckoning.estimate
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
-        leg = self._leg(stamp) if knows and stamp >= self._explore_until else None
+        leg = self._leg(stamp, reckoning.placement) if knows and stamp >= self._explore_until else None
         if leg is None:
             return self._explore(reach, estimate)
         plan = self._follow(reach, leg)
         return self._watch(plan, reach, stamp, estimate)
 
-    def _leg(self, stamp: float) -> Leg | None:
+    def _leg(self, stamp: float, placement: Placement) -> Leg | None:
         """Ask the drawing for the way; forget closed gateways after a while, and if nothing else is left."""
-        placement = self.localizer.placement.moved(self._since_perceived())
         self._closures = self._closures.lasting(stamp, self.settings.closures)
         for closed in (self._closures.gateway_ids, ()):
             try:
@@ -265,25 +242,25 @@ class Navigator:
             return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, trail)))
         return Plan(Behavior.EXPLORE, reach.way_to(rim))
 
-    def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
+    def _command(self, scan: LaserScan, moving: Twist) -> tuple[Twist, Behavior]:
         """Say what the wheels shall do."""
         steering = self.settings.steering
         if self._outcome is not None:
-            return turn_on_the_spot(0.0, self._moving), Behavior.REST
+            return turn_on_the_spot(0.0, moving), Behavior.REST
         if self._plan is None:
-            return turn_on_the_spot(TURNING * steering.turn_rate, self._moving), Behavior.LOOK_AROUND
+            return turn_on_the_spot(TURNING * steering.turn_rate, moving), Behavior.LOOK_AROUND
         base_from_odom = self.surroundings.odom_from_base.inverse()
         way = base_from_odom @ self._plan.way
         passed = int(np.hypot(way[:, 0], way[:, 1]).argmin())
         remembered = base_from_odom @ self.surroundings.things
         things = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < 0.1]])
-        command = steer(way[passed:], things, self.settings.radius, steering, self._moving)
+        command = steer(way[passed:], things, self.settings.radius, steering, moving)
         waits = command.linear == 0.0 and abs(command.angular) < 0.05
         return command, Behavior.WAIT if waits else self._plan.behavior
 
-    def _report(self, scan: LaserScan, estimate: Estimate) -> Step:
+    def _report(self, scan: LaserScan, reckoning: Reckoning) -> Step:
         """Tell what is done and why."""
-        command, behavior = self._command(scan)
+        command, behavior = self._command(scan, reckoning.moving)
         plan = self._plan
         leg = plan.leg if plan else None
         target = None
@@ -294,24 +271,15 @@ class Navigator:
             scan.stamp,
             command,
             behavior,
-            estimate,
-            cell_belief=self._cell_belief,
+            reckoning.estimate,
+            cell_belief=reckoning.cell_belief,
             alignment_error=self.localizer.placement.spread,
             next_cell_id=leg.next_cell_id if leg else "",
             gateway_id=leg.gateway_id if leg else "",
             target=target,
             distance=leg.distance if leg else math.inf,
             closed_gateway_ids=self._closures.gateway_ids,
-            times_lost=self._times_lost,
+            times_lost=reckoning.times_lost,
             outcome=self._outcome,
             reason=self._reason,
         )
-
-
-def twist_between(before: Odometry | None, now: Odometry) -> Twist:
-    """Tell how the robot moves from what the wheels said last and say now."""
-    if before is None or now.stamp <= before.stamp:
-        return STILL
-    motion = before.odom_from_base.inverse() @ now.odom_from_base
-    lasted = now.stamp - before.stamp
-    return Twist(math.copysign(math.hypot(motion.x, motion.y), motion.x) / lasted, motion.theta / lasted)
