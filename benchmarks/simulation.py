@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from pilotage import demo
+from pilotage import worlds
 from pilotage.geometry import Array, Polyline, Twist
 from pilotage.io import open_world
 from pilotage.simulation import Door, LaserSettings, Person, Simulator, SimulatorSettings, World, find_start
@@ -39,7 +39,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=5.0, help="how long the robot drives, on its clock")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        for name, path in (("packed", demo.WORLD), ("raster", write_raster(Path(folder)))):
+        for name, path in (("packed", worlds.OFFICE.world), ("raster", write_raster(Path(folder)))):
             open_world(path)  # compiles
             began = time.process_time()
             world = open_world(path)

@@ -2,13 +2,13 @@
 
     python examples/01_localize.py [MAP LOG]
 
-Without arguments it takes the packed demo.
+Without arguments it takes the packed office.
 """
 
 import sys
 
 import pilotage
-from pilotage import demo
+from pilotage import worlds
 
 
 def main(drawing: str, log: str) -> None:
@@ -24,4 +24,4 @@ def main(drawing: str, log: str) -> None:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:3]) if len(sys.argv) > 2 else main(str(demo.SKETCH), str(demo.LOG))
+    main(*sys.argv[1:3]) if len(sys.argv) > 2 else main(str(worlds.OFFICE.quick), str(worlds.LOG))

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from pilotage import demo
+from pilotage import worlds
 
 COMMANDS = ("cells", "demo", "localize", "navigate", "perceive", "settings", "simplify")
 
@@ -55,7 +55,7 @@ def test_a_wrong_call_is_exit_code_2(pilotage, words):
         ("localize", "--help"),
         ("navigate", "--help"),
         ("demo", "--help"),
-        ("simplify", demo.SKETCH),
+        ("simplify", worlds.OFFICE.quick),
     ],
 )
 def test_light_commands_load_nothing_heavy(words):
@@ -81,7 +81,7 @@ def test_importing_the_package_loads_no_library():
 
 def test_perceive_lists_the_shapes_of_a_scan_and_draws_them(pilotage, tmp_path):
     figure = tmp_path / "scan.png"
-    outcome = pilotage("perceive", demo.LOG, "--scan", 110, "--figure", figure)
+    outcome = pilotage("perceive", worlds.LOG, "--scan", 110, "--figure", figure)
     lines = outcome.out.splitlines()
 
     assert 0 == outcome.code
@@ -91,7 +91,7 @@ def test_perceive_lists_the_shapes_of_a_scan_and_draws_them(pilotage, tmp_path):
 
 
 def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
-    outcome = pilotage("simplify", demo.SKETCH, "--figure", tmp_path / "evolution.svg")
+    outcome = pilotage("simplify", worlds.OFFICE.quick, "--figure", tmp_path / "evolution.svg")
     words = outcome.out.split()
 
     assert 0 == outcome.code
@@ -104,14 +104,17 @@ def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
     [
         (("perceive", "nowhere.log"), "there is no such file"),
         (("simplify", "nowhere.svg"), "there is no such file"),
-        (("perceive", demo.SKETCH), "no CARMEN log"),
-        (("simplify", demo.LOG), "well-formed XML"),
-        (("perceive", demo.LOG, "--scan", "9999"), "scans 0 to 291"),
-        (("localize", demo.LOG, demo.SKETCH), "well-formed XML"),
-        (("localize", demo.SKETCH, demo.SKETCH), "no CARMEN log"),
-        (("localize", demo.SKETCH, demo.LOG, "--from", "500"), "none of them from 500"),
-        (("localize", demo.SKETCH, demo.LOG, "--from", "5", "--to", "5"), "none of them from 5 to 5"),
-        (("simplify", demo.SKETCH, "--figure", "evolution.doc"), "must end in .png, .svg or .pdf"),
+        (("perceive", worlds.OFFICE.quick), "no CARMEN log"),
+        (("simplify", worlds.LOG), "well-formed XML"),
+        (("perceive", worlds.LOG, "--scan", "9999"), "scans 0 to 291"),
+        (("localize", worlds.LOG, worlds.OFFICE.quick), "well-formed XML"),
+        (("localize", worlds.OFFICE.quick, worlds.OFFICE.quick), "no CARMEN log"),
+        (("localize", worlds.OFFICE.quick, worlds.LOG, "--from", "500"), "none of them from 500"),
+        (
+            ("localize", worlds.OFFICE.quick, worlds.LOG, "--from", "5", "--to", "5"),
+            "none of them from 5 to 5",
+        ),
+        (("simplify", worlds.OFFICE.quick, "--figure", "evolution.doc"), "must end in .png, .svg or .pdf"),
     ],
 )
 def test_what_goes_wrong_is_one_line_and_exit_code_1(pilotage, tmp_path, monkeypatch, words, rule):
@@ -136,7 +139,7 @@ def test_what_goes_wrong_is_one_line_and_exit_code_1(pilotage, tmp_path, monkeyp
     ],
 )
 def test_an_impossible_start_or_scale_is_a_wrong_call(pilotage, words):
-    outcome = pilotage("localize", demo.SKETCH, demo.LOG, *words)
+    outcome = pilotage("localize", worlds.OFFICE.quick, worlds.LOG, *words)
 
     assert 2 == outcome.code
     assert words[0] in outcome.err
@@ -145,10 +148,10 @@ def test_an_impossible_start_or_scale_is_a_wrong_call(pilotage, words):
 @pytest.mark.parametrize(
     "words",
     [
-        ("perceive", demo.LOG, "--figure"),
-        ("simplify", demo.SKETCH, "--figure"),
-        ("localize", demo.SKETCH, demo.LOG, "--figure"),
-        ("localize", demo.SKETCH, demo.LOG, "-o"),
+        ("perceive", worlds.LOG, "--figure"),
+        ("simplify", worlds.OFFICE.quick, "--figure"),
+        ("localize", worlds.OFFICE.quick, worlds.LOG, "--figure"),
+        ("localize", worlds.OFFICE.quick, worlds.LOG, "-o"),
     ],
 )
 def test_no_file_is_replaced_unasked(pilotage, tmp_path, words):
@@ -165,7 +168,7 @@ def test_force_replaces_a_file(pilotage, tmp_path):
     old = tmp_path / "old.png"
     old.write_text("old")
 
-    assert 0 == pilotage("perceive", demo.LOG, "--figure", old, "--force").code
+    assert 0 == pilotage("perceive", worlds.LOG, "--figure", old, "--force").code
     assert old.read_bytes().startswith(b"\x89PNG")
 
 
@@ -181,7 +184,7 @@ def test_settings_that_are_printed_can_be_read_back(pilotage, tmp_path):
 
 def test_a_setting_that_is_not_known_is_refused_by_name(pilotage, tmp_path):
     (tmp_path / "mine.toml").write_text("[localizer.perception]\nmin_relevence = 1.0\n")
-    outcome = pilotage("localize", demo.SKETCH, demo.LOG, "--settings", tmp_path / "mine.toml")
+    outcome = pilotage("localize", worlds.OFFICE.quick, worlds.LOG, "--settings", tmp_path / "mine.toml")
 
     assert 1 == outcome.code
     assert "localizer.perception.min_relevence, the nearest known one is" in outcome.err

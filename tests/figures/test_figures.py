@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from pilotage import demo, open_map
+from pilotage import open_map, worlds
 from pilotage.errors import FileError
 from pilotage.figures.drawing import drawing_figure
 from pilotage.figures.path import path_figure
@@ -59,7 +59,7 @@ def test_a_drawing_of_any_proportions_can_be_drawn(tmp_path, stroke):
 
 
 def test_the_titles_count_vertices():
-    sketch = open_map(demo.SKETCH)
+    sketch = open_map(worlds.OFFICE.quick)
     evolved = simplify_all(sketch.strokes, Simplification(0.0025 * sketch.diagonal))
     before, after = drawing_figure(sketch, evolved).axes
 
@@ -82,7 +82,7 @@ def legend_of(figure):
 
 
 def test_a_path_shows_lost_parts_and_rivals_apart():
-    sketch = open_map(demo.SKETCH)
+    sketch = open_map(worlds.OFFICE.quick)
     run = [estimate(0, status=Status.LOST), *(estimate(k) for k in range(1, 9)), estimate(9, rivals=(500.0,))]
     words = legend_of(path_figure(sketch, run, truth=np.array([[1.0, 2.0], [3.0, 4.0]])))
 
@@ -92,7 +92,7 @@ def test_a_path_shows_lost_parts_and_rivals_apart():
 
 
 def test_a_path_without_doubt_shows_none():
-    words = legend_of(path_figure(open_map(demo.SKETCH), [estimate(k) for k in range(9)]))
+    words = legend_of(path_figure(open_map(worlds.OFFICE.quick), [estimate(k) for k in range(9)]))
 
     assert "best guess, while lost" not in words
     assert "other places held possible" not in words
@@ -101,14 +101,14 @@ def test_a_path_without_doubt_shows_none():
 
 def test_a_jump_is_not_drawn_as_a_motion():
     run = [estimate(0), estimate(1), estimate(2, x=400.0), estimate(3, x=400.0)]
-    figure = path_figure(open_map(demo.SKETCH), run)
+    figure = path_figure(open_map(worlds.OFFICE.quick), run)
     (lines,) = figure.axes[0].collections[:1]
 
     assert 2 == len(lines.get_segments())
 
 
 def test_what_was_seen_last_has_a_view_of_its_own():
-    sketch = open_map(demo.SKETCH)
+    sketch = open_map(worlds.OFFICE.quick)
     without = path_figure(sketch, [estimate(0)])
     seen = path_figure(sketch, [estimate(0)], local_map=[Polyline.through([(1, 1), (2, 1)])])
 
@@ -117,7 +117,7 @@ def test_what_was_seen_last_has_a_view_of_its_own():
 
 def test_a_path_of_nothing_is_refused():
     with pytest.raises(ValueError, match="at least one estimate"):
-        path_figure(open_map(demo.SKETCH), [])
+        path_figure(open_map(worlds.OFFICE.quick), [])
 
 
 def test_a_figure_of_unknown_kind_is_refused(tmp_path):

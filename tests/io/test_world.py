@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from pilotage import demo
 from pilotage.errors import FileError
 from pilotage.geometry import Pose2
 from pilotage.io import open_map, open_world
@@ -153,10 +152,3 @@ def test_a_drawn_world_without_walls_or_too_small_for_any_robot_is_refused(tmp_p
         open_world(drawn_world(tmp_path, "", walls='<line class="glass" x2="9" stroke="black"/>'))
     with pytest.raises(FileError, match="room for a disc"):
         open_world(drawn_world(tmp_path, "", walls='<rect width="0.1" height="0.1"/>'))
-
-
-def test_the_demo_is_a_world():
-    world = open_world(demo.WORLD)
-
-    assert world.is_free([(8.0, -9.6)], 0.2).all()
-    assert not world.people

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from pilotage import Localizer, LocalizerSettings, demo, open_log, open_map
+from pilotage import Localizer, LocalizerSettings, open_log, open_map, worlds
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Pose2
 from pilotage.localization import Status, TrackingSettings
@@ -40,7 +40,7 @@ def is_sane(estimate):
 
 @pytest.fixture(scope="module")
 def sketch():
-    return open_map(demo.SKETCH)
+    return open_map(worlds.OFFICE.quick)
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_scans_of_a_few_beams_are_no_reason_to_fall_over(sketch, ranges):
 
 
 def test_a_blind_stretch_in_a_log_is_survived(sketch):
-    readings = open_log(demo.LOG).readings[:30]
+    readings = open_log(worlds.LOG).readings[:30]
     blind = [
         Reading(
             LaserScan(r.scan.stamp, r.scan.angle_min, r.scan.angle_increment, np.full(len(r.scan), np.nan)),
@@ -80,7 +80,7 @@ def test_a_blind_stretch_in_a_log_is_survived(sketch):
 
 
 def test_the_same_stamp_twice_is_taken_as_it_comes(sketch):
-    readings = open_log(demo.LOG).readings[:8]
+    readings = open_log(worlds.LOG).readings[:8]
     localizer = Localizer(sketch, FEW)
     estimates = [
         localizer.update(one.scan, one.odometry) for one in (part for part in readings for _ in range(2))
@@ -94,7 +94,8 @@ def test_time_that_runs_backwards_is_no_reason_to_fall_over(sketch):
     localizer = Localizer(sketch, FEW)
 
     assert all(
-        is_sane(localizer.update(one.scan, one.odometry)) for one in reversed(open_log(demo.LOG).readings[:8])
+        is_sane(localizer.update(one.scan, one.odometry))
+        for one in reversed(open_log(worlds.LOG).readings[:8])
     )
 
 
@@ -127,7 +128,7 @@ def test_two_buildings_on_one_sheet_are_both_possible(tmp_path):
     ],
 )
 def test_a_drawing_that_encloses_nothing_is_refused_in_one_line_or_answered(pilotage, tmp_path, body):
-    outcome = pilotage("localize", drawing(tmp_path, body), demo.LOG, "--to", 3)
+    outcome = pilotage("localize", drawing(tmp_path, body), worlds.LOG, "--to", 3)
 
     assert outcome.code in (0, 1)
     assert "Traceback" not in outcome.err
@@ -158,7 +159,7 @@ def test_every_error_on_purpose_has_one_root():
 
 
 def test_estimates_on_standard_output_are_json_lines(pilotage):
-    outcome = pilotage("localize", demo.SKETCH, demo.LOG, "--from", 10, "--to", 13, "--seed", 3)
+    outcome = pilotage("localize", worlds.OFFICE.quick, worlds.LOG, "--from", 10, "--to", 13, "--seed", 3)
     records = [json.loads(line) for line in outcome.out.splitlines()]
 
     assert 0 == outcome.code
@@ -172,8 +173,8 @@ def test_estimates_on_standard_output_are_json_lines(pilotage):
 
 def test_a_given_start_is_where_the_first_estimate_is(pilotage):
     outcome = pilotage(
-        "localize", demo.SKETCH, demo.LOG, "--to", 1, "--start", "147.7,220.2,-86", "--scale", "22"
+        "localize", worlds.OFFICE.quick, worlds.LOG, "--to", 1, "--start", "105,176,-86", "--scale", "20"
     )
     (record,) = [json.loads(line) for line in outcome.out.splitlines()]
 
-    assert 60.0 > math.hypot(record["x"] - 147.7, record["y"] - 220.2)
+    assert 60.0 > math.hypot(record["x"] - 105.0, record["y"] - 176.0)

@@ -44,4 +44,9 @@ MUSEUM = PackedWorld("museum")
 """Galleries about a great hall with free-standing walls."""
 ALL = (OFFICE, HOME, MUSEUM)
 
-__all__ = ["ALL", "HOME", "MUSEUM", "OFFICE", "PackedWorld"]
+LOG = OFFICE.folder / "run.log.gz"
+"""A robot's drive through the office, simulated; `examples/make_log.py` made it."""
+TRUTH = OFFICE.folder / "truth.jsonl"
+"""Where that robot truly was on the quick drawing at each scan; for scoring only."""
+
+__all__ = ["ALL", "HOME", "LOG", "MUSEUM", "OFFICE", "TRUTH", "PackedWorld"]

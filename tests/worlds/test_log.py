@@ -1,4 +1,4 @@
-"""The packed demo is complete and fits together."""
+"""The packed log fits the office that it was driven in."""
 
 import json
 import runpy
@@ -7,18 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
-from pilotage import demo, open_log, open_map
+from pilotage import open_log, open_map, worlds
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def test_the_truth_lies_inside_the_drawing_at_the_times_of_the_scans():
-    truth = [json.loads(line) for line in demo.TRUTH.read_text().splitlines()]
-    sketch = open_map(demo.SKETCH)
+    truth = [json.loads(line) for line in worlds.TRUTH.read_text().splitlines()]
+    sketch = open_map(worlds.OFFICE.quick)
     left, bottom, right, top = sketch.bounds
     x, y = sketch.sketch_from_file(np.array([(row["x"], row["y"]) for row in truth])).T
 
-    assert [reading.scan.stamp for reading in open_log(demo.LOG)] == [row["stamp"] for row in truth]
+    assert [reading.scan.stamp for reading in open_log(worlds.LOG)] == [row["stamp"] for row in truth]
     assert (left < x).all()
     assert (x < right).all()
     assert (bottom < y).all()
@@ -26,7 +26,7 @@ def test_the_truth_lies_inside_the_drawing_at_the_times_of_the_scans():
 
 
 def test_furniture_is_in_the_world_and_not_in_the_sketch():
-    world, sketch = open_map(demo.WORLD), open_map(demo.SKETCH)
+    world, sketch = open_map(worlds.OFFICE.world), open_map(worlds.OFFICE.quick)
     pieces = [stroke for stroke in world.strokes if stroke.closed and stroke.length < 12.0]
 
     assert 30 <= len(pieces)
@@ -35,11 +35,10 @@ def test_furniture_is_in_the_world_and_not_in_the_sketch():
     assert "kitchen" in [label.text for label in sketch.labels]
 
 
-def test_the_script_makes_the_packed_files_again(tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "argv", ["make_demo.py", str(tmp_path)])
+def test_the_script_makes_the_packed_log_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["make_log.py", str(tmp_path)])
     monkeypatch.syspath_prepend(str(EXAMPLES))
-    runpy.run_path(str(EXAMPLES / "make_demo.py"), run_name="__main__")
+    runpy.run_path(str(EXAMPLES / "make_log.py"), run_name="__main__")
 
-    for path in (demo.SKETCH, demo.WORLD):
-        assert path.read_text() == (tmp_path / path.name).read_text()
-    assert len(open_log(demo.LOG)) == len(open_log(tmp_path / "run.log.gz"))
+    assert worlds.TRUTH.read_text() == (tmp_path / "truth.jsonl").read_text()
+    assert len(open_log(worlds.LOG)) == len(open_log(tmp_path / "run.log.gz"))
