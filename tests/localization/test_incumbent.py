@@ -1,6 +1,7 @@
 """Who is believed when two beliefs disagree."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -45,7 +46,14 @@ def test_one_look_beats_no_incumbent_that_was_sure():
     count, incumbent = after(defending(SURE), [1e9])
 
     assert math.inf == count
-    assert 0.0 < incumbent.credit < 1.0
+    assert 0.5 < incumbent.credit
+
+
+def test_only_the_last_of_a_great_worth_is_missed():
+    told = Incumbent(SOMEWHERE, confidence=1.0, odds=40.0, stake=40.0)
+    left = [replace(told, lead=lead).credit for lead in (0.0, 32.0, 36.0, 40.0)]
+
+    assert [1.0, 1.0, 0.5, 0.0] == left
 
 
 def test_a_challenger_that_goes_on_to_explain_better_wins():

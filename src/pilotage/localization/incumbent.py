@@ -13,6 +13,9 @@ import numpy as np
 from pilotage.localization.belief import Belief, X, Y
 from pilotage.localization.estimate import Hypothesis
 
+MISSED = 8.0
+"""Only the last so many log-odds that a place is worth are missed: with more it is as good as certain."""
+
 
 @dataclass(frozen=True, slots=True)
 class IncumbentSettings:
@@ -63,7 +66,8 @@ class Incumbent:
     @property
     def credit(self) -> float:
         """What is left of its worth, [0..1]."""
-        return max(1.0 - self.lead / self.stake, 0.0)
+        left = max(self.stake - self.lead, 0.0)
+        return min(left / min(self.stake, MISSED), 1.0)
 
 
 def incumbent_at(
