@@ -22,7 +22,7 @@ from pilotage.localization.estimate import (
 )
 from pilotage.maps import AtlasSettings, RangeTableSettings, build_atlas
 
-SETTINGS = EstimateSettings(block=1.0, jump=2.0, confirmation=4.0)
+SETTINGS = EstimateSettings(block=1.0, jump=2.0, confirmation=4.0, fading=40.0)
 COARSE = AtlasSettings(range_table=RangeTableSettings(cells=60, directions=30))
 ATLAS = build_atlas(flat(), COARSE)
 

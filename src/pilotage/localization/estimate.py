@@ -45,21 +45,25 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True)
 class EstimateSettings:
-    """What counts as one place, and when the robot knows its own."""
+    """What counts as one place, and when the robot knows its own.
+
+    How much way that takes is measured in diagonals of the drawing: the smaller a building is, the less of it
+    can be mistaken for the place.
+    """
 
     block: float = 1.0  # [m] hypotheses are gathered over three by three blocks of this size
     hypotheses: int = 5  # how many places are told, at most
     least: float = 0.02  # probability of a place that is worth telling
-    confirmation: float = 4.0  # [m] of way on which confidence makes up two thirds of what it lacks
-    fading: float = 40.0  # [m] on which a defended place loses as much while belief is with another
+    confirmation: float = 0.065  # [diagonals] of way on which confidence makes up two thirds of what it lacks
+    fading: float = 0.6  # [diagonals] on which a defended place loses as much while belief is with another
     jump: float = 2.0  # [m] beyond which it is another place that became the most probable
     located: float = 0.5  # confidence from which on the robot claims to be located
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("block", "confirmation", "jump"):
+        for name in ("block", "confirmation", "fading", "jump"):
             if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0 m, got {getattr(self, name)}")
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
         if not self.hypotheses >= 1:
             raise ValueError(f"hypotheses must be >= 1, got {self.hypotheses}")
         for name in ("least", "located"):
@@ -170,27 +174,27 @@ def distance_between(first: Hypothesis, second: Hypothesis) -> float:
 
 
 def steady_confidence(
-    confidence: float, share: float, jump: float, distance: float, settings: EstimateSettings
+    confidence: float, share: float, jump: float, way: float, settings: EstimateSettings
 ) -> float:
-    """Let confidence grow with the way [m] on which the same place stays the most probable.
+    """Let confidence grow with the `way` [diagonals] on which the same place stays the most probable.
 
     The `share` of the weights alone is badly overconfident: wrong places look certain for a few metres. A
     `jump` [m] from the place that was carried along by the robot's motion begins anew.
     """
     kept = confidence if jump <= settings.jump else 0.0
-    return drawn_to(share, kept, distance / settings.confirmation)
+    return drawn_to(share, kept, way / settings.confirmation)
 
 
 def defended_confidence(
-    confidence: float, share: float, distance: float, settings: EstimateSettings, *, is_led: bool
+    confidence: float, share: float, way: float, settings: EstimateSettings, *, is_led: bool
 ) -> float:
-    """Let confidence in a defended place grow as belief agrees, and fade as another place leads.
+    """Let confidence in a defended place grow with the `way` [diagonals], and fade as another place leads.
 
     Belief that goes elsewhere without explaining more tells nothing: a building may repeat itself.
     """
     if share > confidence:
-        return drawn_to(share, confidence, distance / settings.confirmation)
-    return drawn_to(share, confidence, distance / settings.fading) if is_led else confidence
+        return drawn_to(share, confidence, way / settings.confirmation)
+    return drawn_to(share, confidence, way / settings.fading) if is_led else confidence
 
 
 def drawn_to(target: float, value: float, time: float) -> float:

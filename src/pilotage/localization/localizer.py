@@ -180,11 +180,12 @@ class Localizer:
     def _settle(self, motion: Pose2) -> None:
         """Gather belief into places, and see where in its surroundings the robot stands at the first."""
         settings, carried = self.settings.estimate, self._moved_places(motion)
-        way = math.hypot(motion.x, motion.y)
         incumbent = self._incumbent
         if incumbent is not None and incumbent.is_beaten:
             incumbent = None
         places = find_places(self.belief, self.atlas, settings)
+        diagonal = self.atlas.sketch.diagonal / places[0].sketch_from_base.scale  # [m]
+        way = math.hypot(motion.x, motion.y) / diagonal
         if incumbent is not None:
             agreed = agreement(self.belief, incumbent.belief, self.atlas, settings)
             is_led = incumbent.lead > 0.0
