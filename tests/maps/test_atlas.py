@@ -53,6 +53,17 @@ def test_a_drawing_that_encloses_nothing_has_no_cells():
 
     assert atlas.cell_graph is None
     assert "" == atlas.cell_at((1.0, 1.0))
+    assert [False] == atlas.are_in((), np.ones((1, 2))).tolist()
+
+
+def test_points_are_in_the_cells_that_they_lie_in():
+    atlas = build_atlas(flat(), AtlasSettings())
+    points = atlas.range_table.places
+    ids = np.array([atlas.cell_at((x, y)) for x, y in points])
+    first, second, *_ = atlas.cell_graph.cells
+
+    for chosen in ((first.cell_id,), (first.cell_id, second.cell_id), ()):
+        np.testing.assert_array_equal(np.isin(ids, chosen), atlas.are_in(chosen, points))
 
 
 @pytest.mark.parametrize("cells", [7, 60])

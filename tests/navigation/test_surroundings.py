@@ -197,6 +197,21 @@ def test_a_way_is_as_long_as_it_costs_or_shorter():
         assert 0.98 * length <= reach.lengths[index]
 
 
+def test_the_nearest_place_is_the_nearest_unless_the_way_or_the_place_itself_costs_more():
+    reach = seen_from(Pose2(2.0, 2.0, 0.0)).reach(0.2)
+    point = reach.points[reach.lengths.argmax()]
+    west = reach.points[:, 0] < point[0]
+
+    def gap(index):
+        return np.hypot(*(reach.points[index] - point))
+
+    free = np.zeros(len(west))
+    assert 0.0 == gap(reach.nearest(point, way=0.0, extra=free))
+    assert 0.1 < gap(reach.nearest(point, way=1.5, extra=free))
+    assert west[reach.nearest(point, way=0.0, extra=np.where(west, 0.0, 1.0))]
+    assert 0.0 == gap(reach.nearest(point, way=0.0, extra=np.where(west, 0.0, 0.01)))
+
+
 def divided(gap):
     """Two rooms, and a gap so wide in the wall at x = 3 between them [m]."""
     return (

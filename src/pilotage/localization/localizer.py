@@ -147,11 +147,7 @@ class Localizer:
 
     def belief_in(self, cell_id: str) -> float:
         """Return the probability that the robot was in this cell at the last look, wherever in it."""
-        graph = self.atlas.cell_graph
-        if graph is None:
-            return 0.0
-        lines = self.atlas.range_table.lines_at(self.believed.states[:2].T)
-        inside = self.atlas.cell_indices[lines] == graph.index_from_id[cell_id]
+        inside = self.atlas.are_in((cell_id,), self.believed.states[:2].T)
         return float(self.believed.weights[inside].sum())
 
     def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:

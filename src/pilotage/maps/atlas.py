@@ -1,13 +1,14 @@
 """All that is derived once from a drawing: what can be seen from where, its cells, its likely scale."""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Polyline
+from pilotage.geometry import Array, Polyline
 from pilotage.maps.cells import CellGraph
 from pilotage.maps.decomposition import DecompositionSettings, decompose
 from pilotage.maps.free_space import NotEnclosedError
@@ -56,6 +57,13 @@ class Atlas:
     def cell_at(self, point: tuple[float, float]) -> str:
         """Name the cell that a point lies in, else the nearest; empty if the drawing has none."""
         return self.cell_graph.cell_at(point) if self.cell_graph else ""
+
+    def are_in(self, cell_ids: Collection[str], points: Array) -> NDArray[np.bool_]:
+        """Tell which points (n, 2) lie in one of these cells, or nearest to one, (n,), up to the grid."""
+        if self.cell_graph is None:
+            return np.zeros(len(points), dtype=bool)
+        numbers = [self.cell_graph.index_from_id[cell_id] for cell_id in cell_ids]
+        return np.isin(self.cell_indices[self.range_table.lines_at(points)], numbers)
 
 
 def build_atlas(sketch: SchematicMap, settings: AtlasSettings) -> Atlas:

@@ -34,6 +34,8 @@ class NavigatorSettings:
     perceive_every: float = 0.15  # [m] of way between two scans that the localizer is given
     perceive_turn: float = math.radians(8.0)  # [rad] the same
     plan_every: float = 0.3  # [s]
+    way: float = 0.1  # cost of a metre of way, when it goes to where it can come nearest to a point
+    astray: float = 1.0  # [m] cost of a place there that seems to lie in a cell off the route
     act_on: float = 0.3  # probability of a place from which on the robot goes by it
     arrived: float = 0.2  # [m] to the goal
     sure: float = (
@@ -164,7 +166,7 @@ class Navigator:
         leg = self._leg(stamp, reckoning.placement) if knows and stamp >= self._explore_until else None
         if leg is None:
             return self._explore(reach, estimate)
-        plan = self._follow(reach, leg)
+        plan = self._follow(reach, leg, reckoning.placement)
         return self._watch(plan, reach, stamp, estimate)
 
     def _leg(self, stamp: float, placement: Placement) -> Leg | None:
@@ -179,14 +181,16 @@ class Navigator:
                 self._closures = self._closures.opened()
         return None
 
-    def _follow(self, reach: Reach, leg: Leg) -> Plan:
-        """Go where one can come nearest to the point that the drawing names."""
-        point = (reach.surroundings.odom_from_base @ leg.point[np.newaxis])[0]
-        gaps = np.hypot(*(reach.points - point).T)
-        index = int((gaps + 0.1 * reach.lengths).argmin())
+    def _follow(self, reach: Reach, leg: Leg, placement: Placement) -> Plan:
+        """Go where one can come nearest to the point that the drawing names, but rather on the route."""
+        settings, odom_from_base = self.settings, reach.surroundings.odom_from_base
+        point = (odom_from_base @ leg.point[np.newaxis])[0]
+        on_paper = placement.sketch_from_base(odom_from_base.inverse() @ reach.points)
+        on_route = self.localizer.atlas.are_in(leg.route.cell_ids, on_paper)
+        index = reach.nearest(point, way=settings.way, extra=np.where(on_route, 0.0, settings.astray))
         near = leg.gateway_id and float(np.hypot(*leg.middle)) < 1.0
         behavior = Behavior.GO_THROUGH if near else Behavior.CROSS
-        return Plan(behavior, reach.way_to(index), leg, float(gaps[index]))
+        return Plan(behavior, reach.way_to(index), leg, float(np.hypot(*(reach.points[index] - point))))
 
     def _watch(self, plan: Plan, reach: Reach, stamp: float, estimate: Estimate) -> Plan | None:
         """See whether the robot arrives, or gets on at all."""

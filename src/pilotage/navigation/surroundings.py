@@ -169,6 +169,14 @@ class Reach:
         beside[:, :-1] |= unseen[:, 1:]
         return np.asarray(beside[self.cells[:, 0], self.cells[:, 1]])
 
+    def nearest(self, point: Array, *, way: float, extra: Array) -> int:
+        """Choose of `points` the one nearest to a point (2,) in odom.
+
+        Each metre of the way to it counts for `way` more [m], and the place itself for `extra` (n,) [m].
+        """
+        gaps = np.hypot(*(self.points - point).T)
+        return int((gaps + way * self.lengths + extra).argmin())
+
     def way_to(self, index: int) -> Array:
         """Return the way to one of `points`, from the robot on, (k, 2) in odom [m]."""
         height = self.before.shape[1]
