@@ -15,6 +15,7 @@ from pilotage.maps import AtlasSettings, DecompositionSettings, RangeTableSettin
 from pilotage.navigation.exploring import (
     ExploringSettings,
     box_mean,
+    choose_onward,
     choose_rim,
     differences,
     farthest,
@@ -202,3 +203,18 @@ def test_the_farthest_place_is_far_from_the_trail():
 def test_lengths_are_positive(name):
     with pytest.raises(ValueError, match=f"{name} must be > 0 m"):
         ExploringSettings(**{name: 0.0})
+
+
+@pytest.mark.parametrize("heading", [0.0, math.pi])
+def test_along_a_corridor_the_robot_drives_on_as_it_looks(heading):
+    reach = reach_in(CORRIDOR, Pose2(0.0, 0.0, heading), **ALL_AROUND)
+    chosen = [reach.points[choose_onward(reach, np.array(axis))] for axis in ((0.2, 0.0), (-0.2, 0.0))]
+
+    np.testing.assert_array_equal(*chosen)
+    assert 2.0 < chosen[0][0] * math.cos(heading)
+
+
+def test_before_a_wall_nothing_leads_on():
+    end = (*CORRIDOR, Polyline.through([(0.5, -1), (0.5, 1)]))
+
+    assert choose_onward(reach_in(end, **ALL_AROUND), np.array([1.0, 0.0])) is None

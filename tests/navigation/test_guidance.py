@@ -50,7 +50,7 @@ ROOMS, RING, FLAT = decomposed(SUITE), decomposed(QUARTERS), decompose(flat(), D
 
 def placed(x, y, heading=0.0, *, scale=1.0, stretch=(0.0, 0.0)):
     """Stand somewhere on a drawing, so many units a metre."""
-    return Placement(np.array([x, y, heading, math.log(scale), *stretch]), 0.1)
+    return Placement(np.array([x, y, heading, math.log(scale), *stretch]), 0.1, np.array([0.1, 0.0]))
 
 
 def on_paper(placement, point):

@@ -251,7 +251,7 @@ def test_how_the_robot_moves_is_read_off_its_wheels(twist):
     assert Twist(0.0, 0.0) == twist_between(now, now)
 
 
-@pytest.mark.parametrize("name", ["radius", "time_limit", "plan_every", "arrived", "patience"])
+@pytest.mark.parametrize("name", ["radius", "time_limit", "plan_every", "patience"])
 def test_settings_are_positive(name):
     with pytest.raises(ValueError, match=f"{name} must be > 0"):
         NavigatorSettings(**{name: math.nan})

@@ -20,6 +20,7 @@ class Placement:
 
     state: Array  # (6,) as in kernels/visibility.py
     spread: float  # [m] root mean square distance of the hypotheses from their mean
+    axis: Array  # (2,) along which they are spread most, of the length of their deviation [drawing units]
 
     @property
     def position(self) -> tuple[float, float]:
@@ -53,7 +54,7 @@ class Placement:
         state = self.state.copy()
         state[[X, Y]] = self.sketch_from_base(motion.position[np.newaxis])[0]
         state[HEADING] += motion.theta
-        return Placement(state, self.spread)
+        return Placement(state, self.spread, self.axis)
 
 
 def place_at(belief: Belief, point: tuple[float, float], reach: float) -> Placement:
@@ -65,6 +66,8 @@ def place_at(belief: Belief, point: tuple[float, float], reach: float) -> Placem
         members[:] = True
     states, weights = belief.states[:, members], belief.weights[members]
     mean = mean_state(states, weights)
-    squared = (states[X] - mean[X]) ** 2 + (states[Y] - mean[Y]) ** 2
-    spread = math.sqrt(float(squared @ weights / weights.sum())) / math.exp(float(mean[LOG_SCALE]))
-    return Placement(mean, spread)
+    offsets = states[[X, Y]] - mean[[X, Y], np.newaxis]
+    variances, axes = np.linalg.eigh(offsets * (weights / weights.sum()) @ offsets.T)
+    variances = np.maximum(variances, 0.0)
+    spread = math.sqrt(float(variances.sum())) / math.exp(float(mean[LOG_SCALE]))
+    return Placement(mean, spread, math.sqrt(float(variances[-1])) * axes[:, -1])

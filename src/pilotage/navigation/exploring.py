@@ -13,6 +13,12 @@ from pilotage.navigation.surroundings import Reach
 DIRECTIONS = 36
 """In so many directions it is compared what the places held possible would show."""
 
+DETOUR = 0.3
+"""A metre farther along is worth so many metres of way."""
+
+DEAD_END = 0.5
+"""Where the robot cannot get on by more than this [m], nothing leads on."""
+
 
 @dataclass(frozen=True, slots=True)
 class ExploringSettings:
@@ -119,3 +125,16 @@ def farthest(reach: Reach, trail: Array) -> int:
     """Choose the place of `reach.points` that is farthest from where the robot was of late."""
     away = np.hypot(*(reach.points[:, np.newaxis] - trail[-20:]).transpose(2, 0, 1)).min(axis=1)
     return int(away.argmax())
+
+
+def choose_onward(reach: Reach, axis: Array) -> int | None:
+    """Choose the place of `reach.points` that lies farthest along an axis (2,) in odom, ahead of the robot.
+
+    None if nothing but a turn back leads on.
+    """
+    odom_from_base = reach.surroundings.odom_from_base
+    ahead = odom_from_base.rotation[:, 0]
+    onward = axis / np.hypot(*axis) * (1.0 if axis @ ahead >= 0.0 else -1.0)
+    gained = (reach.points - odom_from_base.position) @ onward
+    best = int((gained - DETOUR * reach.lengths).argmax())
+    return best if gained[best] > DEAD_END else None

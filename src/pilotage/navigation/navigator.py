@@ -1,7 +1,7 @@
 """Scan in, command out: drives a robot to a goal that is marked on a drawing (Wolter 2001, section 4.2)."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -9,8 +9,9 @@ from pilotage.geometry import Array, Twist, wrap_angle
 from pilotage.localization import Estimate, Localizer, Status
 from pilotage.localization.placement import Placement
 from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
+from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
 from pilotage.navigation.closures import Closures, ClosureSettings
-from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
+from pilotage.navigation.exploring import ExploringSettings, choose_onward, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
 from pilotage.navigation.reckoning import Reckoning
@@ -30,6 +31,7 @@ class NavigatorSettings:
     steering: SteeringSettings = field(default_factory=SteeringSettings)
     exploring: ExploringSettings = field(default_factory=ExploringSettings)
     closures: ClosureSettings = field(default_factory=ClosureSettings)
+    arrival: ArrivalSettings = field(default_factory=ArrivalSettings)
     route: RouteSettings = field(default_factory=RouteSettings)
     perceive_every: float = 0.15  # [m] of way between two scans that the localizer is given
     perceive_turn: float = math.radians(8.0)  # [rad] the same
@@ -37,18 +39,12 @@ class NavigatorSettings:
     way: float = 0.1  # cost of a metre of way, when it goes to where it can come nearest to a point
     astray: float = 1.0  # [m] cost of a place there that seems to lie in a cell off the route
     act_on: float = 0.3  # probability of a place from which on the robot goes by it
-    arrived: float = 0.2  # [m] to the goal
-    sure: float = (
-        0.95  # confidence that the robot needs to stop there; else it looks for more, and comes back
-    )
-    easing: float = 0.1  # by how much less it needs each time it comes back
-    beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
     detour: float = 10.0  # [s] for which it explores then
 
     def __post_init__(self) -> None:
         """Refuse what cannot be meant."""
-        for name in ("radius", "time_limit", "plan_every", "arrived", "patience"):
+        for name in ("radius", "time_limit", "plan_every", "patience"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
 
@@ -110,7 +106,7 @@ class Navigator:
         self._progress = Progress()
         self._explore_until = -math.inf
         self._times_stuck = 0
-        self._times_doubted = 0  # how often the robot came to where the goal should be, and was not sure
+        self._arrival = Arrival()
         self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
         self._outcome: Outcome | None = None
         self._reason = ""
@@ -161,13 +157,20 @@ class Navigator:
         reach = self.surroundings.reach(self.settings.radius)
         if len(reach.cells) == 0:
             return None
-        estimate = reckoning.estimate
+        estimate, placement = reckoning.estimate, reckoning.placement
+        self._arrival = self._arrival.at(stamp, placement.spread, self.settings.arrival)
+        if self._arrival.doubt is Doubt.WHERE_IN_IT:
+            plan = self._go_on(reach, placement)
+            if plan is not None:
+                return plan
+            self._arrival = replace(self._arrival, doubt=Doubt.NONE)
+        explores = self._arrival.doubt is Doubt.WHICH_PLACE or stamp < self._explore_until
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
-        leg = self._leg(stamp, reckoning.placement) if knows and stamp >= self._explore_until else None
+        leg = self._leg(stamp, placement) if knows and not explores else None
         if leg is None:
             return self._explore(reach, estimate)
-        plan = self._follow(reach, leg, reckoning.placement)
-        return self._watch(plan, reach, stamp, estimate)
+        plan = self._follow(reach, leg, placement)
+        return self._watch(plan, reach, stamp, reckoning)
 
     def _leg(self, stamp: float, placement: Placement) -> Leg | None:
         """Ask the drawing for the way; forget closed gateways after a while, and if nothing else is left."""
@@ -192,22 +195,23 @@ class Navigator:
         behavior = Behavior.GO_THROUGH if near else Behavior.CROSS
         return Plan(behavior, reach.way_to(index), leg, float(np.hypot(*(reach.points[index] - point))))
 
-    def _watch(self, plan: Plan, reach: Reach, stamp: float, estimate: Estimate) -> Plan | None:
+    def _watch(self, plan: Plan, reach: Reach, stamp: float, reckoning: Reckoning) -> Plan | None:
         """See whether the robot arrives, or gets on at all."""
         settings, leg = self.settings, plan.leg
         assert leg is not None
         in_cell = not leg.next_cell_id
         to_goal = leg.distance if in_cell else math.inf
         way_left = float(np.hypot(*(plan.target - reach.surroundings.odom_from_base.position)))
-        stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.beside
-        if to_goal < settings.arrived or stuck_beside:
-            needed = max(settings.sure - settings.easing * self._times_doubted, settings.act_on)
-            if estimate.status is Status.LOCATED and estimate.confidence >= needed:
+        stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.arrival.beside
+        if to_goal < settings.arrival.near or stuck_beside:
+            estimate = reckoning.estimate
+            has_moved = len(self.trail) > 1  # before that it knows what it was told
+            spread = reckoning.placement.spread if has_moved else 0.0
+            self._arrival = self._arrival.judged(stamp, estimate, spread, settings.arrival)
+            if self._arrival.doubt is Doubt.NONE:
                 self._end(Outcome.REACHED, f"the goal in {estimate.cell_id} is reached")
-                return None
-            self._times_doubted += 1
-            self._explore_until = stamp + settings.detour
-            self._look_around()
+            else:
+                self._look_around()
             return None
         self._closures = self._closures.faced(
             leg,
@@ -228,6 +232,15 @@ class Navigator:
     def _look_around(self) -> None:
         """Turn on the spot until all was seen: a scanner that sees all around need not turn."""
         self._turn_left = self._blind if self._blind > BLIND else 0.0
+
+    def _go_on(self, reach: Reach, placement: Placement) -> Plan | None:
+        """Drive on in the direction in which the place is uncertain; None at a dead end."""
+        if self._progress.is_stuck(self.settings.patience):
+            self._progress = Progress()
+            return None
+        axis = reach.surroundings.odom_from_base.rotation @ np.linalg.solve(placement.linear, placement.axis)
+        index = choose_onward(reach, axis)
+        return None if index is None else Plan(Behavior.EXPLORE, reach.way_to(index))
 
     def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
         """Drive to where the places held possible would look most different; keep to what was begun."""
