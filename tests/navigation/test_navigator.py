@@ -95,6 +95,13 @@ def test_a_robot_that_knows_its_start_drives_to_the_goal_and_touches_nothing(to_
     assert 2.0 * 7.1 > told.way
 
 
+def test_the_goal_is_reached_where_the_robot_stands_and_not_before(to_the_opposite_room):
+    before, last = to_the_opposite_room.positions[-2:]
+
+    assert 1e-3 > np.hypot(*(last - before))
+    assert Behavior.REST is to_the_opposite_room.instants[-2].step.behavior
+
+
 def test_each_step_tells_where_the_robot_is_and_where_it_goes(to_the_opposite_room):
     steps = [instant.step for instant in to_the_opposite_room.instants]
 

@@ -15,7 +15,7 @@ from pilotage.navigation.exploring import ExploringSettings, choose_onward, choo
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
 from pilotage.navigation.reckoning import Reckoning
-from pilotage.navigation.steering import SteeringSettings, steer, turn_on_the_spot
+from pilotage.navigation.steering import SLOW, SteeringSettings, steer, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Step
 from pilotage.navigation.surroundings import Reach, Surroundings, SurroundingsSettings
 from pilotage.perception import LaserScan, Odometry
@@ -202,8 +202,11 @@ class Navigator:
         in_cell = not leg.next_cell_id
         to_goal = leg.distance if in_cell else math.inf
         way_left = float(np.hypot(*(plan.target - reach.surroundings.odom_from_base.position)))
-        stuck_beside = in_cell and way_left < 0.3 and to_goal < settings.arrival.beside
-        if to_goal < settings.arrival.near or stuck_beside:
+        is_taken = plan.gap > settings.arrival.near  # something stands where the goal is
+        is_beside = in_cell and is_taken and way_left < 0.3 and to_goal < settings.arrival.beside
+        if to_goal < settings.arrival.near or is_beside:
+            if reckoning.moving.linear > SLOW:
+                return replace(plan, behavior=Behavior.REST)
             estimate = reckoning.estimate
             has_moved = len(self.trail) > 1  # before that it knows what it was told
             spread = reckoning.placement.spread if has_moved else 0.0
@@ -262,7 +265,7 @@ class Navigator:
     def _command(self, scan: LaserScan, moving: Twist) -> tuple[Twist, Behavior]:
         """Say what the wheels shall do."""
         steering = self.settings.steering
-        if self._outcome is not None:
+        if self._outcome is not None or (self._plan is not None and self._plan.behavior is Behavior.REST):
             return turn_on_the_spot(0.0, moving), Behavior.REST
         if self._plan is None:
             return turn_on_the_spot(TURNING * steering.turn_rate, moving), Behavior.LOOK_AROUND

@@ -16,7 +16,7 @@ class Behavior(Enum):
     GO_THROUGH = "go through"  # goes through the opening of a gateway
     BACK_OUT = "back out"  # leaves a place from which nothing leads on
     WAIT = "wait"  # something moves in the way
-    REST = "rest"  # the drive is over
+    REST = "rest"  # stops where the goal should be, or stands: the drive is over
 
 
 class Outcome(Enum):
