@@ -59,7 +59,7 @@ class Atlas:
         return self.cell_graph.cell_at(point) if self.cell_graph else ""
 
     def are_in(self, cell_ids: Collection[str], points: Array) -> NDArray[np.bool_]:
-        """Tell which points (n, 2) lie in one of these cells, or nearest to one, (n,), up to the grid."""
+        """Tell which points (n, 2) lie in one of these cells, or nearest to one, as the grid tells, (n,)."""
         if self.cell_graph is None:
             return np.zeros(len(points), dtype=bool)
         numbers = [self.cell_graph.index_from_id[cell_id] for cell_id in cell_ids]

@@ -29,7 +29,7 @@ class ArrivalSettings:
     sure: float = 0.95  # confidence that it needs
     easing: float = 0.1  # by how much less it needs each time it comes back
     least: float = 0.3  # confidence without which it never stops
-    settled: float = 0.6  # [m] spread that the hypotheses at the place may have; twice that the next time
+    settled: float = 0.6  # [m] spread that the hypotheses at the place may have; as much more each time
     look: float = 10.0  # [s] for which it looks for more where it is not sure which place this is
     drive_on: float = 20.0  # [s] for which it drives on, at most, where it is not sure where in the place
 
@@ -60,7 +60,11 @@ class Arrival:
             return Arrival(self.times_doubted + 1, Doubt.WHERE_IN_IT, stamp + settings.drive_on)
         return Arrival(self.times_doubted)
 
+    def forgotten(self) -> "Arrival":
+        """Drop the doubt: nothing more can be done about it here."""
+        return Arrival(self.times_doubted)
+
     def at(self, stamp: float, spread: float, settings: ArrivalSettings) -> "Arrival":
         """Forget the doubt once it has had its time, or is settled."""
         is_settled = self.doubt is Doubt.WHERE_IN_IT and spread < settings.settled
-        return Arrival(self.times_doubted) if stamp >= self.until or is_settled else self
+        return self.forgotten() if stamp >= self.until or is_settled else self

@@ -14,7 +14,7 @@ DIRECTIONS = 36
 """In so many directions it is compared what the places held possible would show."""
 
 DETOUR = 0.3
-"""A metre farther along is worth so many metres of way."""
+"""A metre of way counts against so much [m] farther along."""
 
 DEAD_END = 0.5
 """Where the robot cannot get on by more than this [m], nothing leads on."""

@@ -163,7 +163,7 @@ class Navigator:
             plan = self._go_on(reach, placement)
             if plan is not None:
                 return plan
-            self._arrival = replace(self._arrival, doubt=Doubt.NONE)
+            self._arrival = self._arrival.forgotten()
         explores = self._arrival.doubt is Doubt.WHICH_PLACE or stamp < self._explore_until
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
         leg = self._leg(stamp, placement) if knows and not explores else None
