@@ -1,6 +1,7 @@
 """From belief to places and what is claimed of them."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from pilotage.localization import EstimateSettings, Hypothesis, Status
 from pilotage.localization.belief import Belief
 from pilotage.localization.estimate import (
     agreement,
-    count_blocks,
+    area_of,
     defended,
     defended_confidence,
     estimate_from,
@@ -45,8 +46,11 @@ beliefs = st.lists(st.tuples(spots, st.floats(0.01, 1.0)), min_size=1, max_size=
 )
 
 
-def test_belief_at_one_spot_fills_one_block():
-    assert 1.0 == pytest.approx(count_blocks(belief_at(*[(1.5, 4.5)] * 9), ATLAS, SETTINGS))
+@pytest.mark.parametrize("block", [1.0, 1.5, 2.0])
+def test_belief_at_one_spot_fills_one_block(block):
+    settings = replace(SETTINGS, block=block)
+
+    assert block**2 == pytest.approx(area_of(belief_at(*[(1.6, 4.6)] * 9), ATLAS, settings))
 
 
 @pytest.mark.parametrize("scale", [1.0, 25.0])
@@ -55,19 +59,19 @@ def test_equal_shares_far_apart_count_in_full_whatever_the_scale(scale):
     spots = np.array([(1.5, 1.5), (1.5, 5.5), (8.5, 5.5)])
     belief = belief_at(*spots, *(spots + 0.1), scale=scale)
 
-    assert 3.0 == pytest.approx(count_blocks(belief, atlas, SETTINGS))
+    assert 3.0 == pytest.approx(area_of(belief, atlas, SETTINGS))
 
 
 @given(beliefs)
 def test_belief_is_spread_over_no_more_blocks_than_hypotheses_and_at_least_one(belief):
-    blocks = count_blocks(belief, ATLAS, SETTINGS)
+    blocks = area_of(belief, ATLAS, SETTINGS)
 
     assert 1.0 - 1e-9 <= blocks <= len(belief) + 1e-9
 
 
 def test_a_rare_place_counts_less_than_a_likely_one():
     even, rare = (
-        count_blocks(belief_at((1.5, 1.5), (8.5, 5.5), weights=[1.0, other]), ATLAS, SETTINGS)
+        area_of(belief_at((1.5, 1.5), (8.5, 5.5), weights=[1.0, other]), ATLAS, SETTINGS)
         for other in (1.0, 0.01)
     )
 

@@ -88,11 +88,11 @@ def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tup
     return tuple(found)
 
 
-def count_blocks(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
-    """Count the blocks that belief is spread over: as many equal ones would have the same entropy."""
+def area_of(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
+    """Measure how far belief is spread [m²]: evenly over as much, it would have the same entropy."""
     masses = _masses(*_blocks(belief, atlas, _block_of(belief, settings)), belief.weights)
     shares = masses[masses > 0.0]
-    return float(np.exp(-shares @ np.log(shares)))
+    return float(settings.block**2 * np.exp(-shares @ np.log(shares)))
 
 
 def agreement(belief: Belief, other: Belief, atlas: Atlas, settings: EstimateSettings) -> float:

@@ -20,7 +20,7 @@ from pilotage.localization.estimate import (
     EstimateSettings,
     Hypothesis,
     agreement,
-    count_blocks,
+    area_of,
     defended,
     defended_confidence,
     distance_between,
@@ -98,7 +98,8 @@ class Localizer:
         self._tracking = tracking
         self._model = VisibilityModel(self.atlas, self.settings.visibility)
         self.perception_map = PerceptionMap(self.settings.perception_map)
-        self.belief = Belief(self._first_states(start), np.zeros(tracking.first_count))
+        states = self._first_states(start)
+        self.belief = Belief(states, np.zeros(states.shape[1]))
         self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
         self._views: tuple[View, ...] = ()
         self._places: tuple[Hypothesis, ...] = ()
@@ -209,8 +210,8 @@ class Localizer:
         fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
         sample = self.belief.resampled(len(fresh), rng).states
         share = trust_in(fresh, sample, self._views, self._model, settings.alignment)
-        blocks = count_blocks(self.belief, self.atlas, settings.estimate)
-        count = self._tracking.count_for(blocks, len(self.belief))
+        area = area_of(self.belief, self.atlas, settings.estimate)
+        count = self._tracking.count_for(area, len(self.belief))
         self.belief = self.belief.mixed(fresh, share, count, rng)
 
     def _first_states(self, start: Pose2 | None) -> Array:
@@ -218,7 +219,7 @@ class Localizer:
         tracking = self._tracking
         if start is None:
             return propose_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
-        return propose_near(start, self.atlas, tracking.prior, tracking.first_count, self._rng)
+        return propose_near(start, self.atlas, tracking.prior, tracking.count, self._rng)
 
     def _proposals(self) -> Array:
         """Propose places for an alignment: half where corners agree, half anywhere."""

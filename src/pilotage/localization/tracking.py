@@ -17,7 +17,7 @@ class Drift:
     """How the drawing's falseness changes along the way, and how motion errs (deviations)."""
 
     log_scale: float = 0.08  # per sqrt(m): 25 % over 10 m
-    stretch: float = 0.08  # per sqrt(m), of p and of q
+    stretch: float = 0.12  # per sqrt(m), of p and of q
     place: float = 0.1  # [m/sqrt(m)]
     heading: float = 0.04  # [rad/sqrt(m)] angles are drawn off, and walls bent
     length: float = 0.08  # per sqrt(m), of the way itself: a corridor drawn too short
@@ -33,10 +33,10 @@ class TrackingSettings:
 
     prior: Prior = field(default_factory=Prior)
     drift: Drift = field(default_factory=Drift)
-    first_count: int = 200_000  # hypotheses before the first scan
+    first_count: int = 200_000  # hypotheses before the first scan, if the robot may be anywhere
     count: int = 50_000  # hypotheses once most are settled, at most
     least: int = 10_000  # hypotheses at one place
-    by_block: int = 1_000  # hypotheses for each square metre that belief is spread over
+    by_area: int = 1_000  # hypotheses for each square metre that belief is spread over
     shrink: float = 0.5  # share kept at each resampling on the way from the first count to the last
     resample_below: float = 0.5  # share of effective hypotheses below which belief is resampled
     wall_penalty: float = 3.0  # log-odds of walking through a drawn wall: a door forgotten, a wall moved
@@ -52,9 +52,9 @@ class TrackingSettings:
         if not 0.0 < self.shrink <= 1.0:
             raise ValueError(f"shrink must be in (0, 1], got {self.shrink}")
 
-    def count_for(self, blocks: float, now: int) -> int:
-        """Say how many hypotheses are needed for belief that is spread over so many square metres."""
-        enough = max(self.least, min(self.count, round(self.by_block * blocks)))
+    def count_for(self, area: float, now: int) -> int:
+        """Say how many hypotheses are needed for belief that is spread over so much [m²]."""
+        enough = max(self.least, min(self.count, round(self.by_area * area)))
         return now if now > self.count else enough
 
 

@@ -27,10 +27,10 @@ class VisibilitySettings:
     farthest: float = 30.0  # [m] ranges beyond count as no return
     nearest: float = 0.05  # [m] ranges below are dust, or the robot itself
     deviation: float = 0.15  # of e where a drawn wall is seen: walls are drawn 15 % off
-    clutter: float = 0.15  # weight of e > 0: furniture and people before the wall
-    clutter_decay: float = 1.0  # per unit of e
+    clutter: float = 0.25  # weight of e > 0: furniture and people before the wall
+    clutter_decay: float = 0.4  # per unit of e
     missing: float = 0.05  # weight of e < 0: a drawn wall that is not there, or an open door
-    missing_decay: float = 2.0  # per unit of -e
+    missing_decay: float = 5.0  # per unit of -e
     floor: float = 0.01  # weight of any range at all
     no_return: float = 0.15  # probability of no return although a wall is predicted nearer than ...
     no_return_beyond: float = 15.0  # [m] ... this: glass, black and grazed walls
