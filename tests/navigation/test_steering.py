@@ -184,6 +184,24 @@ def test_the_nearer_a_wall_the_slower():
     assert 0.0 < speeds[1] < speeds[3] == SETTINGS.speed
 
 
+@pytest.mark.parametrize("sight", [0.24, 0.3, 0.5, 0.7, 1.0])
+def test_the_less_a_robot_sees_the_slower_it_drives_and_it_touches_nothing(sight):
+    wall = np.column_stack([np.full(81, 3.0), np.linspace(-2.0, 2.0, 81)])
+    way = np.array([[0.0, 0.0], [6.0, 0.0]])
+    pose, now, fastest = Pose2.identity(), STILL, 0.0
+    for _ in range(200):
+        in_base = pose.inverse() @ wall
+        seen = in_base[np.hypot(*in_base.T) < sight]
+        now = BODY.obeyed(
+            now, steer(pose.inverse() @ way, seen, BODY.radius, SETTINGS, now, sight=sight), TIME_STEP
+        )
+        pose = pose @ rolled(now, TIME_STEP)
+        fastest = max(fastest, now.linear)
+
+        assert np.hypot(*(pose.inverse() @ wall).T).min() > BODY.radius
+    assert fastest <= math.sqrt(2.0 * SETTINGS.braking * sight)
+
+
 def test_what_is_behind_does_not_stop_a_robot_that_drives_off():
     wall = along((-0.21, -2), (-0.21, 2))
 

@@ -274,7 +274,8 @@ class Navigator:
         passed = int(np.hypot(way[:, 0], way[:, 1]).argmin())
         remembered = base_from_odom @ self.surroundings.things
         things = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < 0.1]])
-        command = steer(way[passed:], things, self.settings.radius, steering, moving)
+        sight = scan.range_max
+        command = steer(way[passed:], things, self.settings.radius, steering, moving, sight=sight)
         waits = command.linear == 0.0 and abs(command.angular) < 0.05
         return command, Behavior.WAIT if waits else self._plan.behavior
 

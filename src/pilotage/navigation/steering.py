@@ -41,12 +41,19 @@ STILL = Twist(0.0, 0.0)
 
 
 def steer(
-    way: Array, things: Array, radius: float, settings: SteeringSettings, moving: Twist = STILL
+    way: Array,
+    things: Array,
+    radius: float,
+    settings: SteeringSettings,
+    moving: Twist = STILL,
+    *,
+    sight: float = math.inf,
 ) -> Twist:
     """Follow a way (k, 2) among things (n, 2), both in the robot's frame [m], safely for a disc of `radius`.
 
-    `moving` is how the robot moves now. Stands still, or turns on the spot, where moving on would not be
-    safe; one that moves brakes on its arc before it turns on the spot, for that arc was found free.
+    `moving` is how the robot moves now, `sight` how far it sees [m]: what is farther away is not known to be
+    free. Stands still, or turns on the spot, where moving on would not be safe; one that moves brakes on its
+    arc before it turns on the spot, for that arc was found free.
     """
     ahead = point_ahead(way, things, radius + settings.clearance, settings.look_ahead)
     bearing = math.atan2(ahead[1], ahead[0])
@@ -58,7 +65,7 @@ def steer(
         for share in SHARES:
             command = Twist(share * fastest, share * angular)
             braking = Twist(max(command.linear, slowest), command.angular)
-            if is_safe(braking, things, radius, settings):
+            if is_safe(braking, things, radius, settings, sight=sight):
                 return command
     return turn_on_the_spot(angular, moving)
 
@@ -83,13 +90,19 @@ def point_ahead(way: Array, things: Array, room: float, distance: float) -> Arra
     return np.asarray(point)
 
 
-def is_safe(command: Twist, things: Array, radius: float, settings: SteeringSettings) -> bool:
+def is_safe(
+    command: Twist, things: Array, radius: float, settings: SteeringSettings, *, sight: float = math.inf
+) -> bool:
     """Tell whether a disc that obeys a command can still stop before it touches any of the things (n, 2).
+
+    It must come to a stop within its `sight` [m], whatever waits behind.
 
     One that is too near to something already may move on as long as it comes no nearer.
     """
     path = braking_path(command, settings)
     reach = float(np.hypot(*path[-1])) + radius + settings.clearance
+    if command.linear > SLOW and reach > sight:
+        return False
     near = things[np.hypot(things[:, 0], things[:, 1]) < 2.0 * reach]
     gaps = np.hypot(near[:, :1] - path[:, 0], near[:, 1:] - path[:, 1])
     needed = np.minimum(radius + settings.clearance, np.hypot(near[:, 0], near[:, 1]))
