@@ -54,7 +54,7 @@ class EstimateSettings:
     block: float = 1.0  # [m] hypotheses are gathered over three by three blocks of this size
     hypotheses: int = 5  # how many places are told, at most
     least: float = 0.02  # probability of a place that is worth telling
-    confirmation: float = 0.04  # [diagonals] of way on which confidence makes up two thirds of what it lacks
+    confirmation: float = 0.065  # [diagonals] of way on which confidence makes up two thirds of what it lacks
     fading: float = 0.6  # [diagonals] on which a defended place loses as much while belief is with another
     jump: float = 2.0  # [m] beyond which it is another place that became the most probable
     located: float = 0.5  # confidence from which on the robot claims to be located
