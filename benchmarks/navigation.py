@@ -35,6 +35,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
+from arguments import names_of, positive
 from drives import Job, Options, Result, make, sites
 from errands import choose_errands
 from pilotage.config import Settings
@@ -76,24 +77,25 @@ def parse() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument("--buildings", default=",".join(BUILDINGS), help="(default: %(default)s)")
-    parser.add_argument("--hands", default=",".join(HANDS), help="(default: %(default)s)")
-    parser.add_argument("--modes", default=",".join(MODES), help="(default: %(default)s)")
-    parser.add_argument("--pairs", type=int, default=6, help="drives a drawing (default: %(default)s)")
+    parser.add_argument(
+        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
+    )
+    parser.add_argument(
+        "--hands", type=names_of(HANDS), default=",".join(HANDS), help="(default: %(default)s)"
+    )
+    parser.add_argument(
+        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
+    )
+    parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
     parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
     parser.add_argument(
-        "--jobs", type=int, default=2, help="processes; 1 for honest times (default: %(default)s)"
+        "--jobs", type=positive, default=2, help="processes; 1 for honest times (default: %(default)s)"
     )
     parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
     parser.add_argument("--time-limit", type=float, help="[s] after which the robot gives up")
     parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
     parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
     arguments = parser.parse_args()
-    for name, known in (("buildings", BUILDINGS), ("hands", HANDS), ("modes", MODES)):
-        chosen = getattr(arguments, name).split(",")
-        if not set(chosen) <= set(known):
-            parser.error(f"--{name} must be of {', '.join(known)}, got {getattr(arguments, name)}")
-        setattr(arguments, name, chosen)
     if set(arguments.modes) != {"packed"} and not DATA.is_dir():
         parser.error("the data folder is not there: ../shared/data beside the repository")
     return arguments

@@ -31,9 +31,11 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
+from arguments import names_of, positive
 from drives import Job, destination_of, sites
 from errands import Errand, choose_errands
 from pilotage.config import Settings, read_settings
+from pilotage.errors import PilotageError
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.geometry import Array, Pose2
 from pilotage.io.files import write_text
@@ -71,7 +73,7 @@ class Result:
 
     job: Job
     miss: float  # [m] at the end
-    is_near: float  # share of seeds
+    near: float  # share of seeds that ended near
     on_the_way: float  # share of looks
     ms: float  # [ms] a look
 
@@ -79,7 +81,7 @@ class Result:
 def main() -> None:
     """Follow all walks and print the table."""
     arguments = parse()
-    settings = read_settings(arguments.settings) if arguments.settings else Settings()
+    settings = arguments.settings
     jobs = []
     for building in arguments.buildings:
         sites[building] = site = real_site(building)
@@ -108,21 +110,28 @@ def parse() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument("--buildings", default=",".join(BUILDINGS), help="(default: %(default)s)")
-    parser.add_argument("--hands", default=",".join(HANDS), help="(default: %(default)s)")
-    parser.add_argument("--pairs", type=int, default=24, help="walks a drawing (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, default=1, help="runs of each walk (default: %(default)s)")
-    parser.add_argument("--settings", type=Path, help="settings other than the defaults, TOML")
-    parser.add_argument("--jobs", type=int, default=2, help="processes (default: %(default)s)")
+    parser.add_argument(
+        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
+    )
+    parser.add_argument(
+        "--hands", type=names_of(HANDS), default=",".join(HANDS), help="(default: %(default)s)"
+    )
+    parser.add_argument("--pairs", type=positive, default=24, help="walks a drawing (default: %(default)s)")
+    parser.add_argument("--seeds", type=positive, default=1, help="runs of each walk (default: %(default)s)")
+    parser.add_argument("--settings", type=settings_of, default=Settings(), help="a file of settings, TOML")
+    parser.add_argument("--jobs", type=positive, default=2, help="processes (default: %(default)s)")
     arguments = parser.parse_args()
-    for name, known in (("buildings", BUILDINGS), ("hands", HANDS)):
-        chosen = getattr(arguments, name).split(",")
-        if not set(chosen) <= set(known):
-            parser.error(f"--{name} must be of {', '.join(known)}, got {getattr(arguments, name)}")
-        setattr(arguments, name, chosen)
     if not DATA.is_dir():
         parser.error("the data folder is not there: ../shared/data beside the repository")
     return arguments
+
+
+def settings_of(path: str) -> Settings:
+    """Read settings; what is wrong with them is told in one line."""
+    try:
+        return read_settings(path)
+    except PilotageError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def follow(job: Job, seeds: int, settings: LocalizerSettings) -> Result:
@@ -175,9 +184,7 @@ def poses_along(way: Array, settings: LocalizerSettings) -> list[Pose2]:
     poses: list[Pose2] = []
     for (x, y), heading in zip(at(steps).tolist(), headings.tolist(), strict=True):
         pose = Pose2(x, y, heading)
-        motion = poses[-1].inverse() @ pose if poses else None
-        moved = math.inf if motion is None else math.hypot(motion.x, motion.y)
-        if motion is None or moved >= settings.step or abs(motion.theta) >= settings.turn:
+        if not poses or settings.is_due(poses[-1].inverse() @ pose):
             poses.append(pose)
     return poses
 
@@ -196,8 +203,7 @@ def misses_of(walk: Walk, drawing: Drawing, settings: LocalizerSettings, seed: i
         if index > 0:
             motion = walk.motions[index - 1]
             belief = predict(belief, motion, atlas, tracking, rng)
-            way = math.hypot(motion.x, motion.y)
-            news = min(way / settings.step + abs(motion.theta) / settings.new_turn, 1.0)
+            news = settings.news_in(motion)
         belief = thin(weigh(belief, seen, model, news=news), tracking, rng)
         at = find_places(belief, atlas, estimate)[0].sketch_from_base.pose
         placed = place_at(belief, (at.x, at.y), estimate.jump).position
@@ -235,7 +241,7 @@ def hand_rows(hand: str, results: Sequence[Result]) -> Row:
 
 def row_of(title: str, results: Sequence[Result]) -> Row:
     """Print one line of the table and return its figures."""
-    near = [one.is_near for one in results]
+    near = [one.near for one in results]
     low, high = bootstrap_interval(near, np.random.default_rng(0))
     row: Row = {
         "walks": len(results),

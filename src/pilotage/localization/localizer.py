@@ -66,6 +66,14 @@ class LocalizerSettings:
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
 
+    def is_due(self, motion: Pose2) -> bool:
+        """Tell whether a robot that moved so since the last look sees anything new."""
+        return math.hypot(motion.x, motion.y) >= self.step or abs(motion.theta) >= self.turn
+
+    def news_in(self, motion: Pose2) -> float:
+        """Return the share of a look that is news after such a motion, [0..1]: half a step, half as much."""
+        return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / self.new_turn, 1.0)
+
 
 class Localizer:
     """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
@@ -119,11 +127,11 @@ class Localizer:
         registration = register(shapes, self.perception_map, odometry, settings.registration)  # 3.3
         self.perception_map = self.perception_map.merged(registration)
         motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
-        if self._motion is None or self._is_due(motion):
+        if self._motion is None or settings.is_due(motion):
             if self._search_due:
                 self._search()
             self._weigh(scan, shapes, motion)
-            self._search_due = self._motion is not None and not self._is_due(registration.last_from_base)
+            self._search_due = self._motion is not None and not settings.is_due(registration.last_from_base)
             if not self._search_due:
                 self._search()
             self._settle(motion)
@@ -158,8 +166,7 @@ class Localizer:
         features = simplify_all([shape.polyline for shape in shapes], settings.features)
         corners = find_corners(features)
         self._views = extend_views(self._views, motion, seen, corners, settings.alignment.window)
-        way, turn = math.hypot(motion.x, motion.y), abs(motion.theta)
-        news = min(way / settings.step + turn / settings.new_turn, 1.0) if self._places else 1.0
+        news = settings.news_in(motion) if self._places else 1.0
         weighed = self._weighed(self.belief, motion, seen, news)
         incumbent = self._incumbent
         if incumbent is not None:
@@ -219,7 +226,8 @@ class Localizer:
         tracking = self._tracking
         if start is None:
             return propose_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
-        return propose_near(start, self.atlas, tracking.prior, tracking.count, self._rng)
+        count = max(tracking.count, self.settings.incumbent.count)  # which are drawn from these
+        return propose_near(start, self.atlas, tracking.prior, count, self._rng)
 
     def _proposals(self) -> Array:
         """Propose places for an alignment: half where corners agree, half anywhere."""
@@ -227,10 +235,6 @@ class Localizer:
         seen = corners_in_base(self._views)
         by_corners = propose_by_corners(seen, self.atlas, prior, count, self._rng)
         return np.hstack([by_corners, propose_anywhere(self.atlas, prior, count, self._rng)])
-
-    def _is_due(self, motion: Pose2) -> bool:
-        """Tell whether the robot moved far enough to see anything new."""
-        return math.hypot(motion.x, motion.y) >= self.settings.step or abs(motion.theta) >= self.settings.turn
 
     def _moved_places(self, motion: Pose2) -> tuple[Hypothesis, ...]:
         """Carry the places on since they were found."""
