@@ -51,15 +51,22 @@ def test_a_place_that_is_hardly_believed_is_never_stopped_at(times_doubted):
 def test_a_doubt_ends_with_its_time():
     doubting = judged(0.5, 0.1)
 
-    assert doubting == doubting.at(14.9, 0.1, SETTINGS)
-    assert Arrival(1) == doubting.at(15.0, 0.1, SETTINGS)
+    assert doubting == doubting.at(14.9, 0.5, 0.1, SETTINGS)
+    assert Arrival(1) == doubting.at(15.0, 0.5, 0.1, SETTINGS)
+
+
+def test_which_place_it_is_is_no_doubt_once_the_robot_is_sure():
+    doubting = judged(0.5, 0.1)
+
+    assert doubting == doubting.at(6.0, 0.89, 0.1, SETTINGS)
+    assert Arrival(1) == doubting.at(6.0, 0.9, 0.1, SETTINGS)
 
 
 def test_where_in_the_place_is_no_doubt_once_it_is_settled():
     doubting = judged(0.95, 0.6)
 
-    assert doubting == doubting.at(6.0, 0.55, SETTINGS)
-    assert Arrival(1) == doubting.at(6.0, 0.45, SETTINGS)
+    assert doubting == doubting.at(6.0, 0.95, 0.55, SETTINGS)
+    assert Arrival(1) == doubting.at(6.0, 0.95, 0.45, SETTINGS)
 
 
 @pytest.mark.parametrize("name", ["near", "settled"])

@@ -11,7 +11,17 @@ from hypothesis import strategies as st
 from buildings import flat, scan_at
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.localization import Hypothesis
-from pilotage.maps import AtlasSettings, DecompositionSettings, RangeTableSettings, SchematicMap, build_atlas
+from pilotage.localization.belief import Belief
+from pilotage.maps import (
+    AtlasSettings,
+    DecompositionSettings,
+    RangeTableSettings,
+    Roads,
+    RouteSettings,
+    SchematicMap,
+    build_atlas,
+)
+from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import (
     ExploringSettings,
     box_mean,
@@ -176,6 +186,22 @@ def test_of_two_open_ends_the_robot_chooses_the_one_that_tells_places_apart(side
     chosen = choose_rim(
         reach, np.zeros((1, 2)), (place(0.0, 0.0, across), place(side * 1.5, 0.0, across)), atlas, SETTINGS
     )
+
+    assert side * reach.points[chosen, 0] > 1.0
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_of_two_open_ends_the_robot_chooses_the_one_that_most_hypotheses_find_nearer_to_the_goal(side):
+    drawn = Polyline.through([(-30, -1), (30, -1), (30, 1), (-30, 1)], closed=True)
+    atlas = build_atlas(SchematicMap((drawn,)), COARSE)
+    left = cost_to_go(atlas, Roads(atlas.cell_graph, RouteSettings()), (side * 25.0, 0.0))
+    across = math.pi / 2.0
+    reach = reach_in(CORRIDOR, Pose2(0.0, 0.0, across), **ALL_AROUND)
+    states = np.array([(x, 0.0, across, 0.0, 0.0, 0.0) for x in (-10.0, 0.0, 10.0)]).T
+    turned = np.array([(5.0, 0.0, -across, 0.0, 0.0, 0.0)]).T
+    belief = Belief(np.hstack([states, turned]), np.zeros(4))
+
+    chosen = choose_rim(reach, np.zeros((1, 2)), (), atlas, SETTINGS, goal=(left, belief))
 
     assert side * reach.points[chosen, 0] > 1.0
 

@@ -45,9 +45,12 @@ class Belief:
 
     def resampled(self, count: int, rng: np.random.Generator) -> "Belief":
         """Draw hypotheses by weight, evenly (systematic resampling), so that all weigh the same."""
-        picked = np.searchsorted(np.cumsum(self.weights), (np.arange(count) + rng.random()) / count)
-        states = self.states[:, np.minimum(picked, len(self) - 1)]
-        return Belief(states, np.zeros(count))
+        return Belief(self.picked(count, rng.random()), np.zeros(count))
+
+    def picked(self, count: int, offset: float = 0.5) -> Array:
+        """Pick states at even steps of the summed weights, from a share of a step on, (6, count)."""
+        picked = np.searchsorted(np.cumsum(self.weights), (np.arange(count) + offset) / count)
+        return np.asarray(self.states[:, np.minimum(picked, len(self) - 1)])
 
     def mixed(self, other: "Belief", share: float, count: int, rng: np.random.Generator) -> "Belief":
         """Give a share of the whole to another belief, `count` hypotheses in all.

@@ -23,7 +23,7 @@ class Prior:
     """What is known before the first scan."""
 
     log_scale: float = 0.45  # deviation of the guess that the drawing allows
-    stretch: float = 0.25  # deviation of p and q: proportions 30 % off are common
+    stretch: float = 0.18  # deviation of p and q: proportions 30 % off are common
     known_log_scale: float = 0.2  # deviation where the user gave a scale: drawings vary by place
     known_place: float = 1.0  # [m] deviation where the user gave a start
     known_heading: float = math.radians(10.0)  # [rad] the same

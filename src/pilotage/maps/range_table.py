@@ -50,7 +50,7 @@ class RangeTable:
         """Left, bottom, cell size, columns and rows, as the kernels take them."""
         return (*self.corner, self.cell_size, self.columns, self.rows)
 
-    @property
+    @cached_property
     def middles(self) -> Array:
         """The middle of each grid cell, (columns * rows, 2) [drawing units]."""
         return middles_of(self.corner, self.cell_size, self.columns, self.rows)
@@ -60,6 +60,17 @@ class RangeTable:
         places = np.floor((points - self.corner) / self.cell_size).astype(np.int64)
         columns, rows = np.clip(places, 0, (self.columns - 1, self.rows - 1)).T
         return np.asarray(columns * self.rows + rows)
+
+    def sees(self, lines: NDArray[np.int64], point: Array) -> NDArray[np.bool_]:
+        """Tell from which lines (n,) a point (2,) is in sight, give or take a cell and a direction, (n,)."""
+        from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
+
+        offsets = point - self.middles[lines]
+        count = self.log_ranges.shape[1]
+        turned = np.floor(np.arctan2(offsets[:, 1], offsets[:, 0]) * count / (2.0 * np.pi)).astype(np.int64)
+        beside = (self.log_ranges[lines, (turned + side) % count] for side in (0, 1))
+        ranges = np.exp((np.maximum(*beside) - float(LOG_ZERO)) * LOG_STEP) * self.cell_size
+        return np.asarray(np.hypot(*offsets.T) <= ranges + self.cell_size)
 
     @cached_property
     def stretch_tables(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:

@@ -51,8 +51,7 @@ class Roads:
 
     def find(self, start: Point, goal: Point, closed: Collection[str] = ()) -> Route:
         """Find the cheapest route between two points [drawing units]; raises RouteError if there is none."""
-        legs = self._legs.copy()
-        legs.remove_edges_from([self._faces[gateway_id] for gateway_id in closed])
+        legs = self._open_legs(closed)
         ends = [np.array(end, dtype=np.float64) for end in (start, goal)]
         points = [*self._points, *ends]
         cell_ids = [self.graph.cell_at(start), self.graph.cell_at(goal)]
@@ -71,6 +70,29 @@ class Roads:
             [legs.get_edge_data(a, b) for a, b in pairwise(stops)],
             np.array([points[stop] for stop in stops]),
         )
+
+    def exits_to(self, goal: Point, closed: Collection[str] = ()) -> dict[str, list[tuple[Array, float]]]:
+        """List, by cell, the stops on ways to the goal, and what is left from each; the goal is one itself.
+
+        A stop is a point (2,), and what is left a cost as in `Route`. A cell without a way there has none.
+        """
+        legs, goal_id = self._open_legs(closed), self.graph.cell_at(goal)
+        end = np.array(goal, dtype=np.float64)
+        last = int(legs.add_node(None))
+        legs.add_edges_from(self._walks_from(last, end, goal_id, [*self._points, end], self._stops[goal_id]))
+        left = rustworkx.dijkstra_shortest_path_lengths(legs, last, edge_cost_fn=lambda leg: leg.cost)
+        exits = {
+            cell_id: [(self._points[stop], left[stop]) for stop in stops if stop in left]
+            for cell_id, stops in self._stops.items()
+        }
+        exits[goal_id].append((end, 0.0))
+        return exits
+
+    def _open_legs(self, closed: Collection[str]) -> rustworkx.PyGraph:
+        """Copy the legs, without the steps through `closed` gateways."""
+        legs = self._legs.copy()
+        legs.remove_edges_from([self._faces[gateway_id] for gateway_id in closed])
+        return legs
 
     def _route(self, cell_id: str, legs: list[Leg], way: Array) -> Route:
         """Sum up legs from a cell on, and the stops between them (n, 2)."""

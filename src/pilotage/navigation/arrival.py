@@ -26,9 +26,9 @@ class ArrivalSettings:
 
     near: float = 0.2  # [m] to the goal
     beside: float = 1.0  # [m] to the goal where no nearer place can be gone to: something stands on it
-    sure: float = 0.95  # confidence that it needs
-    easing: float = 0.1  # by how much less it needs each time it comes back
-    least: float = 0.3  # confidence without which it never stops
+    sure: float = 0.9  # confidence that it needs
+    easing: float = 0.03  # by how much less it needs each time it comes back
+    least: float = 0.7  # confidence without which it never stops
     settled: float = 0.6  # [m] spread that the hypotheses at the place may have; as much more each time
     look: float = 10.0  # [s] for which it looks for more where it is not sure which place this is
     drive_on: float = 20.0  # [s] for which it drives on, at most, where it is not sure where in the place
@@ -64,7 +64,9 @@ class Arrival:
         """Drop the doubt: nothing more can be done about it here."""
         return Arrival(self.times_doubted)
 
-    def at(self, stamp: float, spread: float, settings: ArrivalSettings) -> "Arrival":
+    def at(self, stamp: float, confidence: float, spread: float, settings: ArrivalSettings) -> "Arrival":
         """Forget the doubt once it has had its time, or is settled."""
-        is_settled = self.doubt is Doubt.WHERE_IN_IT and spread < settings.settled
+        is_settled = (self.doubt is Doubt.WHERE_IN_IT and spread < settings.settled) or (
+            self.doubt is Doubt.WHICH_PLACE and confidence >= settings.sure
+        )
         return self.forgotten() if stamp >= self.until or is_settled else self

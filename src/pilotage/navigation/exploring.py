@@ -1,4 +1,7 @@
-"""Where to drive when the place is not known: to where it would show, or else to where nobody was."""
+"""Where to drive when the place is not known: where it would show, where nobody was, and towards the goal.
+
+Which way that is, all places held possible are asked together: often most of them agree.
+"""
 
 from dataclasses import dataclass
 
@@ -7,11 +10,16 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.localization import Hypothesis
+from pilotage.localization.belief import Belief
 from pilotage.maps import Atlas
+from pilotage.navigation.cost_to_go import CostToGo
 from pilotage.navigation.surroundings import Reach
 
 DIRECTIONS = 36
 """In so many directions it is compared what the places held possible would show."""
+
+SAMPLE = 200
+"""So many hypotheses are asked which way the goal lies."""
 
 DETOUR = 0.3
 """A metre of way counts against so much [m] farther along."""
@@ -30,6 +38,7 @@ class ExploringSettings:
     newness: float = 1.0  # worth of each metre from where the robot was before, up to ...
     new_beyond: float = 4.0  # [m] ... this
     difference: float = 4.0  # worth of ranges that differ by a factor of e between the places held possible
+    progress: float = 1.0  # worth of each metre by which the goal is nearer, on average over belief
     way: float = 0.25  # cost of each metre of the way
     turning: float = 0.5  # cost of turning round by half a circle
 
@@ -72,10 +81,13 @@ def choose_rim(
     places: tuple[Hypothesis, ...],
     atlas: Atlas,
     settings: ExploringSettings,
+    *,
+    goal: tuple[CostToGo, Belief] | None = None,
 ) -> int | None:
     """Choose the place of `reach.points` that is most worth driving to; None if there is none.
 
     `trail` (n, 2) is where the robot was, in odom [m]; `places` are those held possible for where it is now.
+    What is left of the way to a `goal` counts under a belief of where the robot is.
     """
     rims = find_rims(reach, settings)
     if len(rims) == 0:
@@ -87,6 +99,7 @@ def choose_rim(
     worth = (
         settings.newness * np.minimum(to_trail, settings.new_beyond)
         + settings.difference * differences(in_base, places, atlas)
+        + settings.progress * saved_towards(goal, in_base)
         - settings.way * reach.lengths[rims]
         - settings.turning * np.abs(np.arctan2(in_base[:, 1], in_base[:, 0])) / np.pi
     )
@@ -119,6 +132,14 @@ def differences(points: Array, places: tuple[Hypothesis, ...], atlas: Atlas) -> 
     mean = np.tensordot(probabilities, stacked, 1)
     variance = np.tensordot(probabilities, (stacked - mean) ** 2, 1)
     return np.asarray(np.sqrt(variance).mean(axis=1))
+
+
+def saved_towards(goal: tuple[CostToGo, Belief] | None, points: Array) -> Array:
+    """Tell how much nearer the goal is from points (n, 2) in the robot's frame [m], (n,); 0 without one."""
+    if goal is None:
+        return np.zeros(len(points))
+    cost_to_go, belief = goal
+    return cost_to_go.saved(points, belief.picked(SAMPLE))
 
 
 def farthest(reach: Reach, trail: Array) -> int:

@@ -11,6 +11,7 @@ from pilotage.localization.placement import Placement
 from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
 from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
 from pilotage.navigation.closures import Closures, ClosureSettings
+from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import ExploringSettings, choose_onward, choose_rim, farthest
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
@@ -38,7 +39,7 @@ class NavigatorSettings:
     plan_every: float = 0.3  # [s]
     way: float = 0.1  # cost of a metre of way, when it goes to where it can come nearest to a point
     astray: float = 1.0  # [m] cost of a place there that seems to lie in a cell off the route
-    act_on: float = 0.3  # probability of a place from which on the robot goes by it
+    act_on: float = 0.5  # probability of a place from which on the robot goes by it
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
     detour: float = 10.0  # [s] for which it explores then
 
@@ -103,6 +104,8 @@ class Navigator:
         self._heading = 0.0
         self._blind = math.tau  # [rad] of the directions that the scanner does not see
         self._closures = Closures()
+        self._cost_to_go = cost_to_go(localizer.atlas, self.roads, goal)
+        self._shut: tuple[str, ...] = ()  # gateways that this leaves out
         self._progress = Progress()
         self._explore_until = -math.inf
         self._times_stuck = 0
@@ -158,7 +161,8 @@ class Navigator:
         if len(reach.cells) == 0:
             return None
         estimate, placement = reckoning.estimate, reckoning.placement
-        self._arrival = self._arrival.at(stamp, placement.spread, self.settings.arrival)
+        confidence, spread = estimate.confidence, placement.spread
+        self._arrival = self._arrival.at(stamp, confidence, spread, self.settings.arrival)
         if self._arrival.doubt is Doubt.WHERE_IN_IT:
             plan = self._go_on(reach, placement)
             if plan is not None:
@@ -246,7 +250,7 @@ class Navigator:
         return None if index is None else Plan(Behavior.EXPLORE, reach.way_to(index))
 
     def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
-        """Drive to where the places held possible would look most different; keep to what was begun."""
+        """Drive to where places would look most different, or towards the goal; keep to what was begun."""
         if self._plan is not None and self._plan.behavior is Behavior.EXPLORE:
             if self._progress.is_stuck(self.settings.patience):
                 self._progress = Progress()
@@ -257,7 +261,12 @@ class Navigator:
                 if away[index] < 0.3 and reach.lengths[index] > 0.5:
                     return Plan(Behavior.EXPLORE, reach.way_to(index))
         trail = np.vstack([self.trail, self._vain])
-        rim = choose_rim(reach, trail, estimate.hypotheses, self.localizer.atlas, self.settings.exploring)
+        atlas, closed = self.localizer.atlas, self._closures.gateway_ids
+        if closed != self._shut:
+            self._cost_to_go, self._shut = cost_to_go(atlas, self.roads, self.goal, closed), closed
+        doubts = self._arrival.doubt is Doubt.WHICH_PLACE  # where the goal seemed to be: away from there
+        goal = None if doubts else (self._cost_to_go, self.localizer.believed)
+        rim = choose_rim(reach, trail, estimate.hypotheses, atlas, self.settings.exploring, goal=goal)
         if rim is None:
             return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, trail)))
         return Plan(Behavior.EXPLORE, reach.way_to(rim))

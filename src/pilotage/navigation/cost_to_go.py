@@ -1,0 +1,65 @@
+"""What is left of the way to the goal from everywhere on the drawing, and what a move is worth under belief.
+
+While several places are possible, a move is worth what it saves on average over them (Q-MDP: Littman,
+Cassandra and Kaelbling 1995). Where they agree on the way, the robot need not know which of them it is at.
+"""
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Array
+from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
+from pilotage.maps import Atlas, Roads
+from pilotage.maps.range_table import RangeTable
+from pilotage.maps.route import Point
+
+
+@dataclass(frozen=True, eq=False)
+class CostToGo:
+    """The cost of the way to the goal from each cell of the range table's grid."""
+
+    table: RangeTable
+    costs: Array  # (columns * rows,) [drawing units of easy walking]; inf where no way leads
+
+    def at(self, points: Array) -> Array:
+        """Look the cost up for points (n, 2) of the sketch, (n,)."""
+        return np.asarray(self.costs[self.table.lines_at(points)])
+
+    def saved(self, points: Array, states: Array) -> Array:
+        """Average over hypotheses (6, m) how much nearer the goal is from points than from here, (n,) [m].
+
+        Points (n, 2) are in the robot's frame [m]. Where no way leads to the goal nothing is saved. No move
+        saves or loses more than its length: if it seems to, it leads through a drawn wall.
+        """
+        here = self.at(states[[X, Y]].T)
+        saved = np.zeros(len(points))
+        for index, (x, y) in enumerate(points):
+            there = self.at((states[[X, Y]] + stretched(states, x, y)).T)
+            leads = np.isfinite(here) & np.isfinite(there)
+            nearer = (here - there)[leads] / np.exp(states[LOG_SCALE, leads])
+            saved[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()
+        return np.asarray(saved / states.shape[1])
+
+
+def cost_to_go(atlas: Atlas, roads: Roads, goal: Point, closed: Collection[str] = ()) -> CostToGo:
+    """Find what is left of the way from everywhere to a goal of the sketch, not through `closed` gateways.
+
+    From each place of a cell the way leads straight to an exit in sight: a gateway, a corner, the goal. Where
+    the grid is too coarse to see any, all count.
+    """
+    table, graph = atlas.range_table, roads.graph
+    costs = np.full(len(table.middles), np.inf)
+    exits = roads.exits_to(goal, closed)
+    for number, cell in enumerate(graph.cells):
+        inside = np.flatnonzero(atlas.cell_indices == number)
+        price = roads.settings.walking(cell.size)
+        in_sight = np.full(len(inside), np.inf)
+        for point, left in exits[cell.cell_id]:
+            cost = price * np.hypot(*(table.middles[inside] - point).T) + left * graph.diameter
+            costs[inside] = np.minimum(costs[inside], cost)
+            in_sight = np.where(table.sees(inside, point), np.minimum(in_sight, cost), in_sight)
+        costs[inside] = np.where(np.isfinite(in_sight), in_sight, costs[inside])
+    return CostToGo(table, costs)

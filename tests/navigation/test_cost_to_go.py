@@ -1,0 +1,107 @@
+"""What is left of the way to the goal, from anywhere and under belief."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from buildings import flat
+from pilotage.geometry import Polyline
+from pilotage.localization.belief import Belief
+from pilotage.maps import (
+    AtlasSettings,
+    DecompositionSettings,
+    RangeTableSettings,
+    Roads,
+    RouteSettings,
+    SchematicMap,
+    build_atlas,
+)
+from pilotage.navigation.cost_to_go import cost_to_go
+
+COARSE = AtlasSettings(
+    range_table=RangeTableSettings(cells=100, directions=120), decomposition=DecompositionSettings()
+)
+RING = SchematicMap(
+    tuple(
+        Polyline.through(corners, closed=True)
+        for corners in ([(0, 0), (20, 0), (20, 10), (0, 10)], [(3, 3), (17, 3), (17, 7), (3, 7)])
+    )
+)
+CORRIDOR = SchematicMap((Polyline.through([(0, 0), (30, 0), (30, 2), (0, 2)], closed=True),))
+
+
+def left_in(sketch, goal, closed=()):
+    atlas = build_atlas(sketch, COARSE)
+    roads = Roads(atlas.cell_graph, RouteSettings())
+    return atlas, roads, cost_to_go(atlas, roads, goal, closed)
+
+
+def hypotheses(*poses, scale=1.0):
+    return np.array([(x, y, heading, math.log(scale), 0.0, 0.0) for x, y, heading in poses]).T
+
+
+@pytest.mark.parametrize(
+    ("sketch", "goal"), [(flat(), (8.0, 5.0)), (flat(30.0), (45.0, 30.0)), (RING, (18.5, 5.0))]
+)
+def test_what_is_left_is_what_the_route_costs(sketch, goal):
+    atlas, roads, left = left_in(sketch, goal)
+    places = atlas.range_table.places
+    free = shapely.union_all([cell.polygon for cell in roads.graph.cells])
+    places = places[shapely.contains_xy(free, places)]  # not inside the ring's block
+    places = places[np.random.default_rng(0).choice(len(places), 60)]
+
+    routes = [roads.find(tuple(place), goal).cost * roads.graph.diameter for place in places]
+    cell = atlas.range_table.cell_size
+    np.testing.assert_allclose(left.at(places), routes, rtol=0.02, atol=2.0 * cell)
+
+
+def test_behind_a_closed_gateway_no_way_leads():
+    atlas, roads, left = left_in(flat(), (8.0, 5.0))
+    shut = cost_to_go(atlas, roads, (8.0, 5.0), [gateway.gateway_id for gateway in roads.graph.gateways])
+    here, there = np.array([[1.5, 1.5]]), np.array([[9.0, 6.0]])
+
+    assert np.isfinite(left.at(here)).all()
+    assert np.isinf(shut.at(here)).all()
+    assert np.isfinite(shut.at(there)).all()
+
+
+def test_a_move_saves_what_it_comes_nearer_in_metres():
+    for scale in (1.0, 20.0):
+        corners = scale * CORRIDOR.strokes[0].ring[:-1]
+        _, _, left = left_in(SchematicMap((Polyline(corners, closed=True),)), (25.0 * scale, scale))
+        states = hypotheses((10.0 * scale, scale, 0.0), scale=scale)
+
+        saved = left.saved(np.array([(3.0, 0.0), (-4.0, 0.0), (0.0, 0.0)]), states)
+
+        np.testing.assert_allclose(saved, [3.0, -4.0, 0.0], atol=0.4)
+
+
+def test_places_that_look_opposite_ways_save_nothing_on_average():
+    _, _, left = left_in(CORRIDOR, (25.0, 1.0))
+    opposite = hypotheses((10.0, 1.0, 0.0), (10.0, 1.0, math.pi))
+
+    np.testing.assert_allclose(left.saved(np.array([(3.0, 0.0), (-3.0, 0.0)]), opposite), 0.0, atol=0.4)
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 2**32 - 1))
+def test_no_move_saves_more_than_its_length(seed):
+    rng = np.random.default_rng(seed)
+    _, _, left = FLAT
+    points = rng.uniform(-6.0, 6.0, (8, 2))
+    states = hypotheses(*rng.uniform((0.0, 0.0, -3.1), (10.0, 7.0, 3.1), (20, 3)))
+
+    assert (np.abs(left.saved(points, states)) <= np.hypot(*points.T) + 1e-9).all()
+
+
+FLAT = left_in(flat(), (8.0, 5.0))
+
+
+def test_states_are_picked_as_often_as_they_weigh():
+    belief = Belief(np.arange(12.0).reshape(6, 2), np.log([3.0, 1.0]))
+
+    assert 6 == np.count_nonzero(belief.picked(8)[0] == 0.0)
