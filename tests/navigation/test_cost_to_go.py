@@ -87,6 +87,13 @@ def test_places_that_look_opposite_ways_save_nothing_on_average():
     np.testing.assert_allclose(left.saved(np.array([(3.0, 0.0), (-3.0, 0.0)]), opposite), 0.0, atol=0.4)
 
 
+def test_where_no_way_leads_to_the_goal_nothing_is_saved():
+    atlas, roads, _ = left_in(flat(), (8.0, 5.0))
+    shut = cost_to_go(atlas, roads, (8.0, 5.0), [gateway.gateway_id for gateway in roads.graph.gateways])
+
+    np.testing.assert_array_equal(shut.saved(np.array([(1.0, 0.5)]), hypotheses((1.5, 1.5, 0.0))), 0.0)
+
+
 @settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1))
 def test_no_move_saves_more_than_its_length(seed):

@@ -39,7 +39,7 @@ class CostToGo:
         for index, (x, y) in enumerate(points):
             there = self.at((states[[X, Y]] + stretched(states, x, y)).T)
             leads = np.isfinite(here) & np.isfinite(there)
-            nearer = (here - there)[leads] / np.exp(states[LOG_SCALE, leads])
+            nearer = (here[leads] - there[leads]) / np.exp(states[LOG_SCALE, leads])
             saved[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()
         return np.asarray(saved / states.shape[1])
 
