@@ -11,8 +11,8 @@ from pilotage.localization.placement import Placement
 from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
 from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
 from pilotage.navigation.closures import Closures, ClosureSettings
-from pilotage.navigation.cost_to_go import cost_to_go
-from pilotage.navigation.exploring import ExploringSettings, choose_onward, choose_rim, farthest
+from pilotage.navigation.explorer import Explorer
+from pilotage.navigation.exploring import ExploringSettings, choose_onward
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
 from pilotage.navigation.reckoning import Reckoning
@@ -71,9 +71,6 @@ TRAIL = 0.5
 TURNING = 0.7
 """At this share of its fastest turn the robot looks around."""
 
-VAIN = 10
-"""So many places are remembered that the robot could not get to."""
-
 BLIND = math.radians(30.0)
 """A scanner that leaves out less sees all around."""
 
@@ -104,13 +101,11 @@ class Navigator:
         self._heading = 0.0
         self._blind = math.tau  # [rad] of the directions that the scanner does not see
         self._closures = Closures()
-        self._cost_to_go = cost_to_go(localizer.atlas, self.roads, goal)
-        self._shut: tuple[str, ...] = ()  # gateways that this leaves out
+        self._explorer = Explorer(localizer.atlas, self.roads, goal, self.settings.exploring)
         self._progress = Progress()
         self._explore_until = -math.inf
         self._times_stuck = 0
         self._arrival = Arrival()
-        self._vain = np.empty((0, 2))  # where the robot could not get to, in odom [m]
         self._outcome: Outcome | None = None
         self._reason = ""
 
@@ -242,6 +237,7 @@ class Navigator:
 
     def _go_on(self, reach: Reach, placement: Placement) -> Plan | None:
         """Drive on in the direction in which the place is uncertain; None at a dead end."""
+        self._explorer.interrupt()
         if self._progress.is_stuck(self.settings.patience):
             self._progress = Progress()
             return None
@@ -250,26 +246,19 @@ class Navigator:
         return None if index is None else Plan(Behavior.EXPLORE, reach.way_to(index))
 
     def _explore(self, reach: Reach, estimate: Estimate) -> Plan:
-        """Drive to where places would look most different, or towards the goal; keep to what was begun."""
-        if self._plan is not None and self._plan.behavior is Behavior.EXPLORE:
-            if self._progress.is_stuck(self.settings.patience):
-                self._progress = Progress()
-                self._vain = np.vstack([self._vain, self._plan.target])[-VAIN:]
-            else:
-                away = np.hypot(*(reach.points - self._plan.target).T)
-                index = int(away.argmin())
-                if away[index] < 0.3 and reach.lengths[index] > 0.5:
-                    return Plan(Behavior.EXPLORE, reach.way_to(index))
-        trail = np.vstack([self.trail, self._vain])
-        atlas, closed = self.localizer.atlas, self._closures.gateway_ids
-        if closed != self._shut:
-            self._cost_to_go, self._shut = cost_to_go(atlas, self.roads, self.goal, closed), closed
+        """Drive to where places would look most different, or towards the goal."""
+        if self._plan is None or self._plan.behavior is not Behavior.EXPLORE:
+            self._explorer.interrupt()
+        elif self._progress.is_stuck(self.settings.patience):
+            self._progress = Progress()
+            self._explorer.give_up()
         doubts = self._arrival.doubt is Doubt.WHICH_PLACE  # where the goal seemed to be: away from there
-        goal = None if doubts else (self._cost_to_go, self.localizer.believed)
-        rim = choose_rim(reach, trail, estimate.hypotheses, atlas, self.settings.exploring, goal=goal)
-        if rim is None:
-            return Plan(Behavior.BACK_OUT, reach.way_to(farthest(reach, trail)))
-        return Plan(Behavior.EXPLORE, reach.way_to(rim))
+        belief = None if doubts else self.localizer.believed
+        closed = self._closures.gateway_ids
+        index, leads_on = self._explorer.choose(
+            reach, self.trail, estimate.hypotheses, belief=belief, closed=closed
+        )
+        return Plan(Behavior.EXPLORE if leads_on else Behavior.BACK_OUT, reach.way_to(index))
 
     def _command(self, scan: LaserScan, moving: Twist) -> tuple[Twist, Behavior]:
         """Say what the wheels shall do."""
