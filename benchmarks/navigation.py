@@ -154,7 +154,6 @@ def told(result: Result) -> str:
 
 
 COLUMNS = (
-    ("path_ratio_median", 11, 2),
     ("minutes", 8, 1),
     ("lost", 6, 1),
     ("recovered", 12, 1),
@@ -163,7 +162,7 @@ COLUMNS = (
     ("ms_p95", 5, 0),
 )
 HEAD = (
-    f"{'':24s}{'drives':>7s}{'reached':>19s}{'collisions':>11s}{'path ratio':>11s}{'minutes':>8s}{'lost':>6s}"
+    f"{'':24s}{'drives':>7s}{'reached':>19s}{'collisions':>11s}{'path ratio':>20s}{'minutes':>8s}{'lost':>6s}"
     f"{'found again':>12s}{'right room':>11s}{'ms':>5s}{'p95':>5s}"
 )
 
@@ -219,6 +218,7 @@ def row_of(title: str, results: Sequence[Result]) -> Row:
         "drives": len(results),
         "collisions": sum(scored.collisions for scored in scores),
         "path_ratio_median": float(np.median(ratios)) if ratios else None,
+        "path_ratio_interval": median_interval(ratios),
         "minutes": mean_of([scored.minutes for scored in scores]),
         "lost": mean_of([scored.times_lost for scored in scores]),
         "recovered": mean_of([scored.times_recovered for scored in scores]),
@@ -230,6 +230,11 @@ def row_of(title: str, results: Sequence[Result]) -> Row:
     return row
 
 
+def median_interval(values: Sequence[float]) -> tuple[float, float] | None:
+    """Say how sure the median is; None if there is nothing."""
+    return bootstrap_interval(values, np.random.default_rng(0), np.median) if values else None
+
+
 def mean_of(values: Sequence[float]) -> float | None:
     """Average; None if there is nothing to average."""
     return float(np.mean(values)) if values else None
@@ -239,6 +244,11 @@ def line_of(title: str, row: Row) -> str:
     """Format one line of a table."""
     low, high = row["reached_interval"]
     cells = [f"{row['drives']:7d}{row['reached']:6.2f} [{low:4.2f}, {high:4.2f}]{row['collisions']:11d}"]
+    if row["path_ratio_interval"]:
+        low, high = row["path_ratio_interval"]
+        cells.append(f"{row['path_ratio_median']:6.2f} [{low:5.2f},{high:5.2f}]")
+    else:
+        cells.append(f"{'-':>20s}")
     for name, width, digits in COLUMNS:
         value = row[name]
         cells.append(f"{'-':>{width}s}" if value is None else f"{value:{width}.{digits}f}")

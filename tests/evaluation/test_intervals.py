@@ -24,3 +24,11 @@ def test_equal_values_leave_no_doubt():
 def test_what_has_no_mean_is_refused(values):
     with pytest.raises(ValueError, match="values"):
         bootstrap_interval(values, np.random.default_rng(0))
+
+
+def test_a_median_is_less_moved_by_what_stands_far_out_than_a_mean():
+    values = [1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 9.0] * 5
+    _, mean_high = bootstrap_interval(values, np.random.default_rng(0))
+    low, high = bootstrap_interval(values, np.random.default_rng(0), np.median)
+
+    assert low <= 1.3 <= high < mean_high
