@@ -35,14 +35,14 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from arguments import names_of, positive
+from arguments import add_drawings, names_of, positive, seconds
 from drives import Job, Options, Result, make, sites
 from errands import choose_errands
 from pilotage.config import Settings
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.io.files import write_text
 from pilotage.worlds import ALL
-from sites import BUILDINGS, DATA, HANDS, PACKED_HANDS, TUNED, packed_site, real_site
+from sites import DATA, PACKED_HANDS, TUNED, packed_site, real_site
 
 MODES = {"known": "known_start", "unknown": "unknown_start", "packed": "packed"}
 
@@ -76,13 +76,7 @@ def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument(
-        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
-    )
-    parser.add_argument(
-        "--hands", type=names_of(HANDS), default=",".join(HANDS), help="(default: %(default)s)"
-    )
+    add_drawings(parser)
     parser.add_argument(
         "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
     )
@@ -92,7 +86,7 @@ def parse() -> argparse.Namespace:
         "--jobs", type=positive, default=2, help="processes; 1 for honest times (default: %(default)s)"
     )
     parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
-    parser.add_argument("--time-limit", type=float, help="[s] after which the robot gives up")
+    parser.add_argument("--time-limit", type=seconds, help="[s] after which the robot gives up")
     parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
     parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
     arguments = parser.parse_args()

@@ -25,13 +25,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from multiprocessing import get_context
-from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from arguments import names_of, positive
+from arguments import add_drawings, positive
 from drives import Job, destination_of, sites
 from errands import Errand, choose_errands
 from pilotage.config import Settings, read_settings
@@ -47,7 +46,7 @@ from pilotage.localization.proposals import propose_near
 from pilotage.localization.tracking import predict, thin, weigh
 from pilotage.localization.visibility import Look, VisibilityModel, look
 from pilotage.simulation.laser import LaserSettings, sense
-from sites import BUILDINGS, DATA, HANDS, TUNED, Drawing, Site, real_site
+from sites import DATA, TUNED, Drawing, Site, real_site
 
 ALL_AROUND = LaserSettings(beams=361, field_of_view=math.tau * 360 / 361)
 RADII = (0.4, 0.3, 0.2)  # [m] of the disc that takes the way: as far off the walls as there is space
@@ -109,13 +108,7 @@ def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument(
-        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
-    )
-    parser.add_argument(
-        "--hands", type=names_of(HANDS), default=",".join(HANDS), help="(default: %(default)s)"
-    )
+    add_drawings(parser)
     parser.add_argument("--pairs", type=positive, default=24, help="walks a drawing (default: %(default)s)")
     parser.add_argument("--seeds", type=positive, default=1, help="runs of each walk (default: %(default)s)")
     parser.add_argument("--settings", type=settings_of, default=Settings(), help="a file of settings, TOML")
