@@ -75,5 +75,11 @@ def test_a_robot_that_cannot_arrive_is_refused(name):
         ArrivalSettings(**{name: 0.0})
 
 
+@pytest.mark.parametrize("name", ["sure", "easing", "least"])
+def test_confidence_is_a_share(name):
+    with pytest.raises(ValueError, match=f"{name} must be in .0, 1., got 1.5"):
+        ArrivalSettings(**{name: 1.5})
+
+
 def test_nothing_is_doubted_at_first():
     assert (0, Doubt.NONE, -math.inf) == (Arrival().times_doubted, Arrival().doubt, Arrival().until)

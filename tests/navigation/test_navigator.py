@@ -262,3 +262,8 @@ def test_how_the_robot_moves_is_read_off_its_wheels(twist):
 def test_settings_are_positive(name):
     with pytest.raises(ValueError, match=f"{name} must be > 0"):
         NavigatorSettings(**{name: math.nan})
+
+
+def test_a_probability_to_act_on_is_a_share():
+    with pytest.raises(ValueError, match="act_on must be in .0, 1., got 3.0"):
+        NavigatorSettings(act_on=3.0)

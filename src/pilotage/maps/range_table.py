@@ -62,7 +62,10 @@ class RangeTable:
         return np.asarray(columns * self.rows + rows)
 
     def sees(self, lines: NDArray[np.int64], point: Array) -> NDArray[np.bool_]:
-        """Tell from which lines (n,) a point (2,) is in sight, give or take a cell and a direction, (n,)."""
+        """Tell from which lines (n,) a point (2,) [drawing units] is in sight, (n,).
+
+        Give or take a cell and a direction: so does who stands close to a wall see along it.
+        """
         from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
 
         offsets = point - self.middles[lines]

@@ -38,6 +38,9 @@ class ArrivalSettings:
         for name in ("near", "settled"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0 m, got {getattr(self, name)}")
+        for name in ("sure", "easing", "least"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name} must be in [0, 1], got {getattr(self, name)}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +68,10 @@ class Arrival:
         return Arrival(self.times_doubted)
 
     def at(self, stamp: float, confidence: float, spread: float, settings: ArrivalSettings) -> "Arrival":
-        """Forget the doubt once it has had its time, or is settled."""
-        is_settled = (self.doubt is Doubt.WHERE_IN_IT and spread < settings.settled) or (
-            self.doubt is Doubt.WHICH_PLACE and confidence >= settings.sure
-        )
+        """Forget the doubt once it has had its time, or is settled; `spread` [m] as in `judged`."""
+        is_settled = {
+            Doubt.NONE: False,
+            Doubt.WHICH_PLACE: confidence >= settings.sure,
+            Doubt.WHERE_IN_IT: spread < settings.settled,
+        }[self.doubt]
         return self.forgotten() if stamp >= self.until or is_settled else self

@@ -48,6 +48,8 @@ class NavigatorSettings:
         for name in ("radius", "time_limit", "plan_every", "patience"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        if not 0.0 <= self.act_on <= 1.0:
+            raise ValueError(f"act_on must be in [0, 1], got {self.act_on}")
 
 
 @dataclass(frozen=True, eq=False)
