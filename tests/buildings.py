@@ -7,7 +7,7 @@ import numpy as np
 
 from pilotage.geometry import Polyline, Pose2
 from pilotage.kernels.raycast import cast
-from pilotage.maps import SchematicMap
+from pilotage.maps import AtlasSettings, RangeTableSettings, SchematicMap
 from pilotage.perception import LaserScan, Odometry
 
 # An L-shaped flat [m]: a long room with an alcove, and a smaller room behind a door.
@@ -22,6 +22,11 @@ def flat(scale=1.0, sketch_from_world=None):
     """Draw the flat, so many units a metre, moved as a whole."""
     pose = sketch_from_world or Pose2.identity()
     return SchematicMap(tuple(Polyline(scale * wall.vertices).moved(pose) for wall in WALLS))
+
+
+def coarse(cells=60, directions=60):
+    """Look at a drawing coarsely, for the sake of time."""
+    return AtlasSettings(range_table=RangeTableSettings(cells=cells, directions=directions))
 
 
 def scan_at(pose, stamp=0.0, beams=181, fov=math.pi, walls=WALLS):

@@ -8,23 +8,13 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from buildings import flat
+from buildings import coarse, flat
 from pilotage.geometry import Polyline
 from pilotage.localization.belief import Belief
-from pilotage.maps import (
-    AtlasSettings,
-    DecompositionSettings,
-    RangeTableSettings,
-    Roads,
-    RouteSettings,
-    SchematicMap,
-    build_atlas,
-)
+from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.cost_to_go import cost_to_go
 
-COARSE = AtlasSettings(
-    range_table=RangeTableSettings(cells=100, directions=120), decomposition=DecompositionSettings()
-)
+COARSE = coarse(100, 120)
 RING = SchematicMap(
     tuple(
         Polyline.through(corners, closed=True)

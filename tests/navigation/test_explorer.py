@@ -5,18 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from buildings import scan_at
+from buildings import coarse, scan_at
 from pilotage.geometry import Polyline, Pose2
 from pilotage.localization.belief import Belief
-from pilotage.maps import (
-    AtlasSettings,
-    DecompositionSettings,
-    RangeTableSettings,
-    Roads,
-    RouteSettings,
-    SchematicMap,
-    build_atlas,
-)
+from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.explorer import Explorer
 from pilotage.navigation.exploring import ExploringSettings
 from pilotage.navigation.surroundings import Surroundings, SurroundingsSettings
@@ -34,9 +26,7 @@ HALLS = SchematicMap(  # a corridor between two halls, each behind a door
         Polyline.through([(10, -1), (30, -1), (30, 1), (10, 1)]),
     )
 )
-COARSE = AtlasSettings(
-    range_table=RangeTableSettings(cells=120, directions=60), decomposition=DecompositionSettings()
-)
+COARSE = coarse(120, 60)
 TRAIL = np.zeros((1, 2))
 
 

@@ -8,19 +8,11 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from buildings import flat, scan_at
+from buildings import coarse, flat, scan_at
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.localization import Hypothesis
 from pilotage.localization.belief import Belief
-from pilotage.maps import (
-    AtlasSettings,
-    DecompositionSettings,
-    RangeTableSettings,
-    Roads,
-    RouteSettings,
-    SchematicMap,
-    build_atlas,
-)
+from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import (
     ExploringSettings,
@@ -37,9 +29,7 @@ from strategies import angles
 SETTINGS = ExploringSettings()
 RADIUS = 0.2
 HERE = Pose2.identity()
-COARSE = AtlasSettings(
-    range_table=RangeTableSettings(cells=60, directions=60), decomposition=DecompositionSettings()
-)
+COARSE = coarse()
 CORRIDOR = (Polyline.through([(-7, -1), (7, -1)]), Polyline.through([(-7, 1), (7, 1)]))
 """Open at both ends [m]."""
 ALL_AROUND = {"beams": 720, "fov": math.tau * 719 / 720}
@@ -126,7 +116,7 @@ def test_one_place_alone_differs_from_nothing(atlas):
 
 def test_places_that_look_alike_do_not_differ():
     square = SchematicMap((Polyline.through([(-2, -2), (2, -2), (2, 2), (-2, 2)], closed=True),))
-    alike = build_atlas(square, AtlasSettings(range_table=RangeTableSettings(cells=41, directions=60)))
+    alike = build_atlas(square, coarse(41))
     four = tuple(place(0.0, 0.0, quarter * math.pi / 2.0) for quarter in range(4))
     points = np.array([[0.0, 0.0], [1.0, 0.3], [-0.7, 1.2]])
 
