@@ -77,7 +77,7 @@ def test_a_robot_that_cannot_arrive_is_refused(name):
 
 @pytest.mark.parametrize("name", ["sure", "easing", "least"])
 def test_confidence_is_a_share(name):
-    with pytest.raises(ValueError, match=f"{name} must be in .0, 1., got 1.5"):
+    with pytest.raises(ValueError, match=rf"{name} must be in \[0, 1\], got 1.5"):
         ArrivalSettings(**{name: 1.5})
 
 

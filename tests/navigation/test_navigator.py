@@ -265,5 +265,5 @@ def test_settings_are_positive(name):
 
 
 def test_a_probability_to_act_on_is_a_share():
-    with pytest.raises(ValueError, match="act_on must be in .0, 1., got 3.0"):
+    with pytest.raises(ValueError, match=r"act_on must be in \[0, 1\], got 3.0"):
         NavigatorSettings(act_on=3.0)
