@@ -27,11 +27,11 @@ from numpy.typing import NDArray
 from PIL import Image
 from skimage.measure import find_contours
 
+from pilotage.contours import ArcSequence, Comparison, Measure
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels.arc_correspondence import closed_dissimilarity
 from pilotage.kernels.evolution_compiled import evolve_runs
 from pilotage.kernels.steps import ArcSteps
-from pilotage.shape import ArcSequence, Comparison, Measure
 
 IMAGES = Path(__file__).resolve().parents[2] / "shared" / "data" / "shapes" / "mpeg7"
 PUBLISHED = 0.7645

@@ -35,15 +35,9 @@ from pilotage.evaluation.trajectory import (
 from pilotage.geometry import Array, Pose2, Trajectory
 from pilotage.io.logs import open_log
 from pilotage.io.tum import read_trajectory
-from pilotage.localization.registration import Method, RegistrationSettings, register
-from pilotage.perception import (
-    Odometry,
-    PerceptionMap,
-    PerceptionMapSettings,
-    PerceptionSettings,
-    Reading,
-    perceive,
-)
+from pilotage.perception import Odometry, PerceptionSettings, Reading, perceive
+from pilotage.scan_matching import PerceptionMap, PerceptionMapSettings
+from pilotage.scan_matching.register import Method, RegistrationSettings, register
 
 LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
 NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")

@@ -10,11 +10,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from pilotage.contours import ArcSequence, Comparison, Matching, Measure, match_partial
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels import evolution, evolution_compiled
 from pilotage.kernels.any_start import any_start_dissimilarity
 from pilotage.kernels.arc_correspondence import closed_dissimilarity
-from pilotage.shape import ArcSequence, Comparison, Matching, Measure, PartialShape, match_partial
+from pilotage.shape import PartialShape
 
 CALLS = 200
 BEAMS = 361

@@ -3,9 +3,9 @@ import pytest
 from hypothesis import given, settings
 
 import strategies
+from pilotage.contours import ArcSequence
 from pilotage.kernels.any_start import any_start_dissimilarity
 from pilotage.kernels.tangent import arc_dissimilarity
-from pilotage.shape import ArcSequence
 
 
 def start_by_start(c, d):

@@ -1,10 +1,9 @@
-"""Where the robot is on the drawing: the only layer that knows both scan and map (Wolter 2001, section 3)."""
+"""Where the robot is on the drawing: the only layer that knows scan and map (Wolter 2001, section 3.4)."""
 
 from pilotage.localization.alignment import AlignmentSettings
 from pilotage.localization.estimate import Estimate, EstimateSettings, Hypothesis, Status
 from pilotage.localization.localizer import Localizer, LocalizerSettings
 from pilotage.localization.proposals import Prior
-from pilotage.localization.registration import RegistrationSettings, register
 from pilotage.localization.tracking import Drift, TrackingSettings
 from pilotage.localization.visibility import VisibilitySettings
 
@@ -17,9 +16,7 @@ __all__ = [
     "Localizer",
     "LocalizerSettings",
     "Prior",
-    "RegistrationSettings",
     "Status",
     "TrackingSettings",
     "VisibilitySettings",
-    "register",
 ]

@@ -32,12 +32,13 @@ from pilotage.localization.estimate import (
 from pilotage.localization.incumbent import Incumbent, IncumbentSettings, gain_of, incumbent_at
 from pilotage.localization.placement import Placement, place_at
 from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
-from pilotage.localization.registration import RegistrationSettings, register
 from pilotage.localization.tracking import TrackingSettings, predict, thin, weigh
 from pilotage.localization.visibility import Look, VisibilityModel, VisibilitySettings, look
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
-from pilotage.perception import LaserScan, Odometry, PerceptionMap, PerceptionSettings, perceive
-from pilotage.perception.perception_map import PerceptionMapSettings
+from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
+from pilotage.scan_matching import PerceptionMap
+from pilotage.scan_matching.local_map import PerceptionMapSettings
+from pilotage.scan_matching.register import RegistrationSettings, register
 from pilotage.shape import PartialShape, Simplification, simplify_all
 from pilotage.shape.corners import find_corners
 

@@ -7,10 +7,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage.contours.arcs import Bend, find_arcs
+from pilotage.contours.tangent import TangentFunction
 from pilotage.geometry import Polyline
 from pilotage.kernels.steps import ArcSteps, Steps
-from pilotage.shape.arcs import Bend, find_arcs
-from pilotage.shape.tangent import TangentFunction
 
 REPEAT = 1e-9  # share of the length; a shorter segment is rounding
 

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 
 import strategies
+from pilotage.contours import TangentFunction
+from pilotage.contours.tangent import turns
 from pilotage.geometry import Polyline
-from pilotage.shape import TangentFunction
-from pilotage.shape.tangent import turns
 
 
 @settings(deadline=None)

@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given
 
 from pilotage.geometry import Polyline, Pose2
-from pilotage.perception import (
+from pilotage.perception import Odometry
+from pilotage.scan_matching import (
     Correspondence,
-    Odometry,
     OdometryNoise,
     PerceptionMap,
     PerceptionMapSettings,
     Registration,
 )
-from pilotage.perception.perception_map import segment_owners, segments_of
+from pilotage.scan_matching.local_map import segment_owners, segments_of
 from pilotage.shape import PartialShape
 from strategies import polylines
 

@@ -10,18 +10,11 @@ from pilotage.evaluation.trajectory import associate, chain, motion_errors, moti
 from pilotage.geometry import Pose2
 from pilotage.io.logs import open_log
 from pilotage.io.tum import read_trajectory
-from pilotage.localization.overlap import OverlapSettings
-from pilotage.localization.registration import Method, RegistrationSettings, register
-from pilotage.localization.registration_settings import SearchSettings
-from pilotage.perception import (
-    LaserScan,
-    Odometry,
-    OdometryNoise,
-    PerceptionMap,
-    PerceptionSettings,
-    Reading,
-    perceive,
-)
+from pilotage.perception import LaserScan, Odometry, PerceptionSettings, Reading, perceive
+from pilotage.scan_matching import OdometryNoise, PerceptionMap
+from pilotage.scan_matching.overlap import OverlapSettings
+from pilotage.scan_matching.register import Method, RegistrationSettings, register
+from pilotage.scan_matching.settings import SearchSettings
 from shared_data import LOGS, needs_logs
 
 WALLS = (

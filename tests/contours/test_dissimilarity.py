@@ -6,9 +6,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import strategies
+from pilotage.contours import ArcSequence, Comparison, Lengths, Measure, arc_dissimilarity, dissimilarity
+from pilotage.contours.tangent import turns
 from pilotage.geometry import Polyline, Similarity2
-from pilotage.shape import ArcSequence, Comparison, Lengths, Measure, arc_dissimilarity, dissimilarity
-from pilotage.shape.tangent import turns
 
 comparisons = st.builds(Comparison, st.sampled_from(Measure), st.sampled_from(Lengths))
 TANGENT, COMBINED = Comparison(Measure.TANGENT), Comparison(Measure.COMBINED)

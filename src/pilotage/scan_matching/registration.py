@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from pilotage.geometry import Array, Pose2
-from pilotage.perception.odometry_noise import OdometryNoise
 from pilotage.perception.scan import Odometry
+from pilotage.scan_matching.odometry_noise import OdometryNoise
 from pilotage.shape.partial import PartialShape
 
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Pose2
-from pilotage.perception.correspondence import Registration
-from pilotage.perception.odometry_noise import OdometryNoise
 from pilotage.perception.scan import Odometry
+from pilotage.scan_matching.odometry_noise import OdometryNoise
+from pilotage.scan_matching.registration import Registration
 from pilotage.shape.partial import PartialShape
 
 if TYPE_CHECKING:

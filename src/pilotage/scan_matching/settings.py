@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass, field
 from enum import Enum
 
-from pilotage.localization.overlap import OverlapSettings
-from pilotage.localization.shape_registration import ShapeSettings
+from pilotage.scan_matching.by_shape import ShapeSettings
+from pilotage.scan_matching.overlap import OverlapSettings
 
 
 class Method(Enum):

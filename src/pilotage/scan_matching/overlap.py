@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Pose2
-from pilotage.perception import Correspondence, PerceptionMap
-from pilotage.perception.perception_map import segment_owners, segments_of
+from pilotage.scan_matching.local_map import PerceptionMap, segment_owners, segments_of
+from pilotage.scan_matching.registration import Correspondence
 from pilotage.shape.partial import PartialShape
 
 

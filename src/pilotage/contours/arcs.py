@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from pilotage.contours.tangent import turns
 from pilotage.geometry import Array, Polyline, Span
-from pilotage.shape.tangent import turns
 
 Cut = tuple[int, float]  # a vertex and a share of the segment that starts there
 

@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from pilotage.geometry import Array, Pose2
-from pilotage.localization.odometry_guess import Guess
-from pilotage.localization.registration_settings import RegistrationSettings
-from pilotage.perception import OdometryNoise, PerceptionMap
-from pilotage.perception.perception_map import segments_of
+from pilotage.scan_matching.local_map import PerceptionMap, segments_of
+from pilotage.scan_matching.motion_prior import Guess
+from pilotage.scan_matching.odometry_noise import OdometryNoise
+from pilotage.scan_matching.settings import RegistrationSettings
 from pilotage.shape.partial import PartialShape
 
 

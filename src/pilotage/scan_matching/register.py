@@ -19,12 +19,14 @@ import math
 import numpy as np
 
 from pilotage.geometry import Pose2, frozen_array
-from pilotage.localization.fitting import find_best_fit, fit_at, take_samples
-from pilotage.localization.odometry_guess import Guess, learn, predict
-from pilotage.localization.overlap import find_correspondences
-from pilotage.localization.registration_settings import Method, RegistrationSettings
-from pilotage.localization.shape_registration import find_pose_by_shape
-from pilotage.perception import Odometry, PerceptionMap, Registration
+from pilotage.perception import Odometry
+from pilotage.scan_matching.by_shape import find_pose_by_shape
+from pilotage.scan_matching.local_map import PerceptionMap
+from pilotage.scan_matching.motion_prior import Guess, learn, predict
+from pilotage.scan_matching.overlap import find_correspondences
+from pilotage.scan_matching.refine import find_best_fit, fit_at, take_samples
+from pilotage.scan_matching.registration import Registration
+from pilotage.scan_matching.settings import Method, RegistrationSettings
 from pilotage.shape.partial import PartialShape
 
 __all__ = ["Method", "RegistrationSettings", "register"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pilotage.geometry import Pose2
-from pilotage.perception import OdometryNoise
+from pilotage.scan_matching import OdometryNoise
 
 METER = Pose2(1.0, 0.0, 0.0)
 

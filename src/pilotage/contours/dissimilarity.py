@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from pilotage.contours.sequence import ArcSequence
+from pilotage.contours.tangent import TangentFunction
 from pilotage.geometry import Polyline
-from pilotage.shape.sequence import ArcSequence
-from pilotage.shape.tangent import TangentFunction
 
 
 class Measure(Enum):

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from pilotage.contours import Matching, PartialMatch, match_partial_near
 from pilotage.geometry import Array, Pose2
-from pilotage.shape import Matching, PartialMatch, PartialShape, match_partial_near
+from pilotage.shape import PartialShape
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import assume, given, settings
 
 import strategies
+from pilotage.contours import Bend, find_arcs
+from pilotage.contours.tangent import turns
 from pilotage.geometry import Polyline
-from pilotage.shape import Bend, find_arcs
-from pilotage.shape.tangent import turns
 
 OPPOSITE = {Bend.CONVEX: Bend.CONCAVE, Bend.CONCAVE: Bend.CONVEX, Bend.STRAIGHT: Bend.STRAIGHT}
 

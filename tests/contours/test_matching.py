@@ -5,9 +5,10 @@ import pytest
 from hypothesis import assume, given, settings
 
 import strategies
+from pilotage.contours import Matching, match_partial, match_partial_near
+from pilotage.contours.tangent import turns
 from pilotage.geometry import Polyline, Pose2, Span
-from pilotage.shape import EndCause, Matching, PartialShape, match_partial, match_partial_near
-from pilotage.shape.tangent import turns
+from pilotage.shape import EndCause, PartialShape
 
 SETTINGS = Matching()
 NICHE = [(0, 6), (0, 0), (2, 0), (2, -1), (3, -1), (3, 0), (8, 0), (8, 6)]

@@ -5,8 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from pilotage.geometry import Array, Pose2, wrap_angle
-from pilotage.localization.registration_settings import RegistrationSettings
-from pilotage.perception import Odometry, OdometryNoise, PerceptionMap
+from pilotage.perception import Odometry
+from pilotage.scan_matching.local_map import PerceptionMap
+from pilotage.scan_matching.odometry_noise import OdometryNoise
+from pilotage.scan_matching.settings import RegistrationSettings
 
 
 class Guess(NamedTuple):
