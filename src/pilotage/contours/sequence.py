@@ -1,6 +1,5 @@
 """A contour as a sequence of arcs, laid out once and compared often."""
 
-import math
 from dataclasses import dataclass
 from typing import Self
 
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 
 from pilotage.contours.arcs import Bend, find_arcs
 from pilotage.contours.tangent import TangentFunction
-from pilotage.geometry import Polyline
+from pilotage.geometry import Polyline, wrap_angle
 from pilotage.kernels.steps import ArcSteps, Steps
 
 REPEAT = 1e-9  # share of the length; a shorter segment is rounding
@@ -46,7 +45,7 @@ class ArcSequence:
         stops, along, starts = self.tangent.stops, self.tangent.directions, self.arc_starts
         if self.closed:
             gap = along[0] - along[-1]
-            around = along[-1] - along[0] + gap - math.tau * round(gap / math.tau)
+            around = along[-1] - along[0] + wrap_angle(float(gap))
             stops = np.concatenate([stops, 1.0 + stops[1:]])
             along = np.concatenate([along, along + around])
             starts = np.concatenate([starts, starts[-1] + starts[1:]])

@@ -1,12 +1,11 @@
 """Tangent functions: direction as a function of the way along a contour (Wolter 2001, section 3)."""
 
-import math
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
-from pilotage.geometry import Array, Polyline, frozen_array
+from pilotage.geometry import Array, Polyline, frozen_array, wrap_angle
 from pilotage.kernels.steps import Steps
 
 
@@ -27,7 +26,7 @@ def turns(polyline: Polyline) -> Array:
     along = directions(polyline)
     ends = (along[-1:], along[:0]) if polyline.closed else (along[:1], along[-1:])
     change = np.diff(np.concatenate([ends[0], along, ends[1]]))
-    return np.asarray(change - math.tau * np.ceil(change / math.tau - 0.5))
+    return wrap_angle(change)
 
 
 @dataclass(frozen=True, eq=False)

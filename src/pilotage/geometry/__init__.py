@@ -2,7 +2,7 @@
 
 from pilotage.geometry.angles import wrap_angle
 from pilotage.geometry.arrays import Array, frozen_array, frozen_points
-from pilotage.geometry.polyline import Polyline
+from pilotage.geometry.polyline import Polyline, segments_of
 from pilotage.geometry.pose import Pose2
 from pilotage.geometry.similarity import Similarity2
 from pilotage.geometry.span import Span
@@ -19,5 +19,6 @@ __all__ = [
     "Twist",
     "frozen_array",
     "frozen_points",
+    "segments_of",
     "wrap_angle",
 ]

@@ -1,6 +1,6 @@
 """Polylines: the one carrier of shape, seen or drawn."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
@@ -87,3 +87,18 @@ class Polyline:
         last = points[-1] + span.trim_last * (points[-2] - points[-1])
         points[0], points[-1] = first, last
         return Polyline(points)
+
+
+def segments_of(polylines: Sequence[Polyline]) -> Array:
+    """List all segments of all polylines, (m, 4) as x1, y1, x2, y2.
+
+    >>> segments_of([Polyline.through([(0, 0), (1, 0)]), Polyline.through([(2, 0), (3, 0)])]).tolist()
+    [[0.0, 0.0, 1.0, 0.0], [2.0, 0.0, 3.0, 0.0]]
+    """
+    if not polylines:
+        return np.empty((0, 4))
+    rings = [polyline.ring for polyline in polylines]
+    vertices = np.concatenate(rings)
+    segments = np.hstack([vertices[:-1], vertices[1:]])
+    between_polylines = np.cumsum([len(ring) for ring in rings[:-1]], dtype=np.intp) - 1
+    return np.delete(segments, between_polylines, axis=0)

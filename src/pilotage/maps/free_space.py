@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.errors import PilotageError
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array, Polyline, segments_of
 from pilotage.maps.extent import diameter_of
 from pilotage.maps.schematic import SchematicMap
 from pilotage.maps.tessellation import Tessellation, tessellate
@@ -90,11 +90,6 @@ def significant(strokes: Sequence[Polyline], blob: float) -> Sequence[Polyline]:
         if diameter_of(np.vstack([strokes[index].vertices for index in sorted(group)])) >= blob:
             kept |= group
     return [strokes[index] for index in sorted(kept)] or strokes
-
-
-def segments_of(strokes: tuple[Polyline, ...]) -> Array:
-    """List all segments of strokes, (n, 4)."""
-    return np.vstack([np.hstack([stroke.ring[:-1], stroke.ring[1:]]) for stroke in strokes])
 
 
 def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array, Polyline, segments_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class SchematicMap:
     @property
     def segments(self) -> Array:
         """All segments of all strokes, (n, 4) as x1, y1, x2, y2 [drawing units]."""
-        return np.vstack([np.hstack([stroke.ring[:-1], stroke.ring[1:]]) for stroke in self.strokes])
+        return segments_of(self.strokes)
 
     def file_from_sketch(self, points: Array) -> Array:
         """Carry points (n, 2) from the sketch (y up) to the axes of the source file; the unit stays.

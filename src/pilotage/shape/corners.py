@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Polyline, Pose2
+from pilotage.geometry import Array, Polyline, Pose2, wrap_angle
 
 MIN_TURN = math.radians(35.0)
 """Flatter bends are tremor of the hand or of the laser."""
@@ -64,7 +64,7 @@ def find_corners(polylines: Iterable[Polyline]) -> Corners:
     vertices = np.vstack(runs)
     steps = np.diff(vertices, axis=0)
     lengths, headings = np.hypot(steps[:, 0], steps[:, 1]), np.arctan2(steps[:, 1], steps[:, 0])
-    turns = np.remainder(np.diff(headings) + math.pi, math.tau) - math.pi
+    turns = wrap_angle(np.diff(headings))
     inner = np.ones(len(turns), dtype=bool)  # vertices 1 .. n - 2 of the whole, but no ends of a run
     ends = np.cumsum([len(run) for run in runs])[:-1]
     inner[ends - 2] = inner[ends - 1] = False
