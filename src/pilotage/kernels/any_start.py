@@ -1,8 +1,8 @@
 """Compare two closed contours as wholes, from the best start of each (Arkin et al. 1991)."""
 
 import numpy as np
-from numba import njit
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.steps import Steps
 from pilotage.kernels.tangent import length_factor, mean_and_variance
 

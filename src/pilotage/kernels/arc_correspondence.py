@@ -1,10 +1,10 @@
 """Order-keeping correspondence of arcs (Latecki and Lakämper 2000; Wolter 2001, section 3)."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from pilotage.kernels.any_start import any_start_dissimilarity
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.segment_correspondence import combined_dissimilarity
 from pilotage.kernels.steps import ArcSteps, Steps
 from pilotage.kernels.tangent import ROUNDING, arc_dissimilarity

@@ -10,9 +10,9 @@ together even for the walls of a map, which lie on such borders.
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.segment_grid import SegmentGrid
 
 

@@ -1,9 +1,9 @@
 """Discrete curve evolution, compiled: `evolve_runs` of `evolution`, some 30 times as fast."""
 
-from numba import njit
 from numba.extending import register_jitable
 
 from pilotage.kernels import evolution
+from pilotage.kernels.compiling import njit
 
 for helper in (
     evolution.relevance,

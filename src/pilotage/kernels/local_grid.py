@@ -7,8 +7,9 @@ occupied; it fades when beams pass, so that what walked away is gone soon.
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 HIT = 3  # evidence that one return adds
 MOST = 4  # evidence of a wall that was seen often: as many scans must pass through to clear it

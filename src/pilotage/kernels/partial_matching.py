@@ -8,10 +8,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from pilotage.kernels.chains import Chain, Prices
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.tangent import length_factor
 
 START = -1  # no vertex before: here a match starts

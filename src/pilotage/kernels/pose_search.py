@@ -7,9 +7,9 @@ best by direction histogram (Weiss et al. 1994) alone miss the right one in clut
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.segment_field import NONE, SegmentField
 
 

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.segment_grid import SegmentGrid
 
 

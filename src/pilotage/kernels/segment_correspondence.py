@@ -1,8 +1,8 @@
 """Order-keeping correspondence of segments inside arcs (Basri et al. 1998; Wolter 2001, section 3)."""
 
 import numpy as np
-from numba import njit
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.steps import Steps
 from pilotage.kernels.tangent import arc_dissimilarity, length_factor, mean_and_variance, median
 

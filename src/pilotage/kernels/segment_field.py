@@ -4,8 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 NONE = -1  # no segment within reach
 

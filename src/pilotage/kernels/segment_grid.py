@@ -4,8 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 MARGIN = 1e-6  # share of a cell by which segments are taken to be thicker: rounding leaves none out
 MOST_CELLS = 1_000_000  # of a grid, however thinly the segments are spread

@@ -1,8 +1,9 @@
 """Points at even distances along segments, so that a shape weighs by its length and not by its beams."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 
 @njit(cache=True)

@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 BASE_STEPS = 3  # lines joining this many steps of returns, at most, are prolonged
 

@@ -4,9 +4,9 @@ import heapq
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.contact import share_before_grid
 from pilotage.kernels.segment_grid import SegmentGrid
 

@@ -1,8 +1,8 @@
 """The integral of eq. (2) (Latecki and Lakämper 2000; Wolter 2001, section 3)."""
 
 import numpy as np
-from numba import njit
 
+from pilotage.kernels.compiling import njit
 from pilotage.kernels.steps import Steps
 
 ROUNDING = 1e-9  # shares of length and sums of turns that differ by less are equal
