@@ -35,9 +35,8 @@ from pilotage.evaluation.trajectory import (
 from pilotage.geometry import Array, Pose2, Trajectory
 from pilotage.io.logs import open_log
 from pilotage.io.tum import read_trajectory
-from pilotage.perception import Odometry, PerceptionSettings, Reading, perceive
-from pilotage.scan_matching import PerceptionMap, PerceptionMapSettings
-from pilotage.scan_matching.register import Method, RegistrationSettings, register
+from pilotage.perception import Odometry, Reading
+from pilotage.scan_matching import Method, ScanMatcher, ScanMatchingSettings
 
 LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
 NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")
@@ -64,17 +63,13 @@ def cut(reading: Reading) -> Reading:
 
 def run(readings: Sequence[Reading], odometry: Sequence[Pose2], method: Method = Method.SEGMENTS) -> Run:
     """Register each reading into the map of those before it."""
-    perception_map = PerceptionMap(PerceptionMapSettings())
-    settings = RegistrationSettings(method=method)
+    scan_matcher = ScanMatcher(ScanMatchingSettings(method=method))
     steps, elapsed = [], []
     for reading, odom_from_base in zip(readings, odometry, strict=True):
         start = time.perf_counter()
-        shapes = perceive(reading.scan, PerceptionSettings())
-        reckoned = Odometry(reading.odometry.stamp, odom_from_base)
-        registration = register(shapes, perception_map, reckoned, settings)
-        perception_map = perception_map.merged(registration)
+        motion = scan_matcher.update(reading.scan, Odometry(reading.odometry.stamp, odom_from_base))
         elapsed.append((time.perf_counter() - start) * 1e3)
-        steps.append(registration.last_from_base)
+        steps.append(motion.last_from_base)
     return Run(steps[1:], np.array(elapsed[1:]))
 
 

@@ -14,14 +14,14 @@ from pathlib import Path
 import numpy as np
 
 from pilotage.io.logs import open_log
-from pilotage.perception import PerceptionSettings, SegmentationSettings, perceive
-from pilotage.perception.segmentation import find_runs
+from pilotage.perception import PerceptionSettings, perceive
+from pilotage.perception.perceive import find_runs
 
 LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
 NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")
 MAX_RANGE = 30.0  # [m]
 EVERY = 5
-RULES = {"ours": SegmentationSettings(), "paper": SegmentationSettings(max_stretch=0.0)}
+RULES = {"ours": PerceptionSettings(), "paper": PerceptionSettings(max_line_ratio=0.0)}
 
 
 def main() -> None:
@@ -35,7 +35,7 @@ def main() -> None:
         scans = [reading.scan for reading in open_log(arguments.logs / f"{name}.log.gz").readings[::EVERY]]
         scans = [replace(scan, range_max=min(scan.range_max, MAX_RANGE)) for scan in scans]
         for rule, settings in RULES.items():
-            shapes = [perceive(scan, PerceptionSettings(segmentation=settings)) for scan in scans]
+            shapes = [perceive(scan, settings) for scan in scans]
             longest = [max((shape.polyline.length for shape in seen), default=0.0) for seen in shapes]
             used = [sum(len(run.beams) for run in find_runs(scan, settings)) for scan in scans]
             share = sum(used) / sum(int(scan.returned.sum()) for scan in scans)

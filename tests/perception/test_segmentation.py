@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pilotage.geometry import Pose2
-from pilotage.perception import LaserScan, PerceptionSettings, SegmentationSettings, perceive
-from pilotage.perception.segmentation import find_runs
-from pilotage.shape.partial import EndCause
+from pilotage.perception import LaserScan, PerceptionSettings, perceive
+from pilotage.perception.perceive import find_runs
+from pilotage.shape import EndCause
 
 HALF_DEGREE = math.radians(0.5)
 WALLS_ONLY = PerceptionSettings(min_relevance=0.0)
@@ -97,7 +97,7 @@ def test_a_wall_seen_at_a_grazing_angle_stays_whole(step_deg):
 
 def test_the_rule_of_the_paper_alone_breaks_the_grazing_wall():
     corridor = [((0.0, -1.0), (20.0, -1.0))]
-    settings_of_paper = SegmentationSettings(max_stretch=0.0)
+    settings_of_paper = PerceptionSettings(max_line_ratio=0.0)
 
     assert len(find_runs(seen(corridor), settings_of_paper)) > 0
     assert len(np.concatenate([run.beams for run in find_runs(seen(corridor), settings_of_paper)])) < 170
@@ -187,7 +187,7 @@ RANGES = st.lists(
 @given(RANGES, st.floats(-math.pi, math.pi), st.sampled_from([-0.1, -0.01, 0.01, math.tau / 60]))
 def test_any_scan_falls_into_runs_of_its_own_returns(ranges, first, step):
     scan = scan_of(ranges, first=first, step=step)
-    runs = find_runs(scan, SegmentationSettings())
+    runs = find_runs(scan, PerceptionSettings())
     beams = np.concatenate([run.beams for run in runs]) if runs else np.array([], dtype=int)
 
     assert len(beams) == len(set(beams.tolist()))
@@ -212,9 +212,9 @@ def test_simplifying_keeps_ends_and_adds_nothing(ranges):
 @pytest.mark.parametrize(
     "wrong",
     [
-        lambda: SegmentationSettings(max_shadow=-0.1),
-        lambda: SegmentationSettings(tolerance=math.nan),
-        lambda: SegmentationSettings(max_grazing=2.0),
+        lambda: PerceptionSettings(max_shadow=-0.1),
+        lambda: PerceptionSettings(range_tolerance=math.nan),
+        lambda: PerceptionSettings(max_line_ratio=-1.0),
         lambda: PerceptionSettings(min_relevance=-1.0),
     ],
 )

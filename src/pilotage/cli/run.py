@@ -83,9 +83,9 @@ def draw(
     from pilotage.figures.path import path_figure
     from pilotage.figures.style import save
 
-    seen = localizer.perception_map
-    base_from_odom = seen.odom_from_base.inverse()
-    local_map = [shape.polyline.moved(base_from_odom) for shape in seen.shapes]
+    matcher = localizer.scan_matcher
+    base_from_odom = matcher.odom_from_base.inverse()
+    local_map = [shape.polyline.moved(base_from_odom) for shape in matcher.local_map.shapes]
     save(path_figure(sketch, estimates, local_map=local_map, truth=truth, title=title), path)
 
 

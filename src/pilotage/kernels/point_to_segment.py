@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 from pilotage.kernels.compiling import njit
 from pilotage.kernels.segment_field import NONE, SegmentField
 
+CUTOFF = 3.0
+"""Points farther from their segment than this many scales of the kernel do not count."""
+
 
 @njit(cache=True)
 def solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -34,22 +37,23 @@ def linearize(
     weights: NDArray[np.float64],
     field: SegmentField,
     pose: NDArray[np.float64],
-    width: float,
+    scale: float,
     min_cosine: float,
     overhang: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Build the normal equations of all points at a pose (x, y, theta).
 
-    A point counts with the weight of Geman and McClure, 1 / (1 + (e / width)^2)^2, up to three widths, if its
-    own contour runs the same way as the nearest segment and it lies no more than `overhang` past its end.
+    A point counts with the weight of Geman and McClure, 1 / (1 + (e / scale)^2)^2, up to an error e of
+    `CUTOFF` scales, if its own contour runs the same way as the nearest segment and it lies no more than
+    `overhang` past its end.
 
     Returns
     -------
-    hessian, gradient, support, error
-        (3, 3), (3,), the sum of weights, and the weighted sum of squared distances.
+    hessian, gradient, inlier_weight
+        (3, 3), (3,), and the sum of weights.
     """
     hessian, gradient = np.zeros((3, 3)), np.zeros(3)
-    support, error = 0.0, 0.0
+    inlier_weight = 0.0
     c, s = math.cos(pose[2]), math.sin(pose[2])
     rows, columns = field.nearest.shape
     for i in range(len(points)):
@@ -70,9 +74,9 @@ def linearize(
         if along < -overhang or along > field.lengths[k] + overhang:
             continue
         e = ux * py - uy * px
-        if abs(e) > 3.0 * width:
+        if abs(e) > CUTOFF * scale:
             continue
-        ratio = e / width
+        ratio = e / scale
         w = weights[i] / (1.0 + ratio * ratio) ** 2
         j0, j1, j2 = -uy, ux, ux * rx + uy * ry
         hessian[0, 0] += w * j0 * j0
@@ -84,10 +88,9 @@ def linearize(
         gradient[0] += w * j0 * e
         gradient[1] += w * j1 * e
         gradient[2] += w * j2 * e
-        support += w
-        error += w * e * e
+        inlier_weight += w
     hessian[1, 0], hessian[2, 0], hessian[2, 1] = hessian[0, 1], hessian[0, 2], hessian[1, 2]
-    return hessian, gradient, support, error
+    return hessian, gradient, inlier_weight
 
 
 @njit(cache=True)
@@ -99,32 +102,32 @@ def refine_pose(
     start: NDArray[np.float64],
     prior: NDArray[np.float64],
     information: NDArray[np.float64],
-    tail: float,
-    widths: NDArray[np.float64],
+    robust_scale: float,
+    scales: NDArray[np.float64],
     min_cosine: float,
     overhang: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
-    """Take one Gauss-Newton step for each width, from wide to narrow, starting at a pose (x, y, theta).
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Take one Gauss-Newton step for each scale of the kernel, wide to narrow, from a pose (x, y, theta).
 
     `information` (3, 3) holds the pose near `prior`, in units of the information of one point; its hold
-    loosens with the distance m^2 in these units as 1 / (1 + m^2 / tail), since odometry is either right or
-    grossly wrong.
+    loosens with the distance m^2 in these units as 1 / (1 + m^2 / robust_scale), since odometry is either
+    right or grossly wrong.
 
     Returns
     -------
-    pose, hessian, support, error
-        As `linearize` has them at the last width.
+    pose, hessian, inlier_weight
+        As `linearize` has them at the last scale.
     """
     pose = start.copy()
-    for width in widths:
-        hessian, gradient, _, _ = linearize(
-            points, directions, weights, field, pose, width, min_cosine, overhang
+    for scale in scales:
+        hessian, gradient, _ = linearize(
+            points, directions, weights, field, pose, scale, min_cosine, overhang
         )
         delta = pose - prior
         delta[2] -= math.tau * round(delta[2] / math.tau)
-        hold = information / (1.0 + delta @ (information @ delta) / tail)
+        hold = information / (1.0 + delta @ (information @ delta) / robust_scale)
         pose -= solve_symmetric(hessian + hold, gradient + hold @ delta)
-    hessian, _, support, error = linearize(
-        points, directions, weights, field, pose, widths[-1], min_cosine, overhang
+    hessian, _, inlier_weight = linearize(
+        points, directions, weights, field, pose, scales[-1], min_cosine, overhang
     )
-    return pose, hessian, support, error
+    return pose, hessian, inlier_weight

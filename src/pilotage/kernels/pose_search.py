@@ -23,13 +23,13 @@ def add_place_scores(
     corner: NDArray[np.float64],
     heading: float,
     stride: int,
-    width: float,
+    scale: float,
     min_cosine: float,
 ) -> None:
     """Add, for places (rows, columns), the weights of the points near a segment that runs their way.
 
     The places start at a `corner` (x, y) and lie `stride` cells of the field apart. A point at distance d
-    counts 1 / (1 + (d / width)^2).
+    counts 1 / (1 + (d / scale)^2).
     """
     rows, columns = field.nearest.shape
     c, s = math.cos(heading), math.sin(heading)
@@ -52,7 +52,7 @@ def add_place_scores(
                 k = field.nearest[row, column]
                 if k == NONE or vx * field.directions[k, 0] + vy * field.directions[k, 1] < min_cosine:
                     continue
-                ratio = field.distance[row, column] / width
+                ratio = field.distance[row, column] / scale
                 scores[iy, ix] += weights[i] / (1.0 + ratio * ratio)
 
 
@@ -62,47 +62,49 @@ def search_poses(
     directions: NDArray[np.float64],
     weights: NDArray[np.float64],
     field: SegmentField,
-    guess: NDArray[np.float64],
-    deviations: NDArray[np.float64],
+    prior: NDArray[np.float64],
+    stds: NDArray[np.float64],
     window: NDArray[np.float64],
     turn_step: float,
     stride: int,
-    width: float,
+    scale: float,
     min_cosine: float,
-    penalty: float,
-    tail: float,
+    prior_weight: float,
+    robust_scale: float,
     count: int,
 ) -> NDArray[np.float64]:
-    """Try headings and places round a guess (x, y, theta) and return the best poses, (count, 3).
+    """Try headings and places around a pose (x, y, theta) and return the best, (count, 3).
 
     Parameters
     ----------
     points, directions, weights
         Samples of the scan in the base frame, (n, 2), (n, 2), (n,).
-    deviations, window
-        How uncertain the guess is, and how far from it to look: place and heading, (2,) each.
+    stds, window
+        Standard deviations of the prior, and how far from it to look: place and heading, (2,) each.
     turn_step, stride
         Steps between headings, and between places in cells of the field.
-    penalty, tail
-        A pose scores the share of points near their segments, less penalty * log(1 + m^2 / tail) for m
-        deviations from the guess.
+    prior_weight, robust_scale
+        A pose scores the share of points near their segments, less prior_weight * log(1 + m^2 / robust_scale) for m
+        standard deviations from it.
     """
     step = stride * field.cell
     half, half_turns = math.ceil(window[0] / step), math.ceil(window[1] / turn_step)
     side, turns = 2 * half + 1, 2 * half_turns + 1
-    corner = guess[:2] - half * step
+    corner = prior[:2] - half * step
     scores = np.zeros((turns, side, side))
     total = max(weights.sum(), 1.0)
     for h in range(turns):
         turn = (h - half_turns) * turn_step
         add_place_scores(
-            scores[h], points, directions, weights, field, corner, guess[2] + turn, stride, width, min_cosine
+            scores[h], points, directions, weights, field, corner, prior[2] + turn, stride, scale, min_cosine
         )
         for iy in range(side):
             for ix in range(side):
-                place = ((ix - half) ** 2 + (iy - half) ** 2) * (step / deviations[0]) ** 2
-                m = place + (turn / deviations[1]) ** 2
-                scores[h, iy, ix] = scores[h, iy, ix] / total - penalty * math.log(1.0 + m / tail)
+                place = ((ix - half) ** 2 + (iy - half) ** 2) * (step / stds[0]) ** 2
+                m = place + (turn / stds[1]) ** 2
+                scores[h, iy, ix] = scores[h, iy, ix] / total - prior_weight * math.log(
+                    1.0 + m / robust_scale
+                )
     poses = np.empty((count, 3))
     for n in range(count):
         best, h, iy, ix = -np.inf, half_turns, half, half
@@ -112,6 +114,6 @@ def search_poses(
                     if scores[i, j, k] > best:
                         best, h, iy, ix = scores[i, j, k], i, j, k
         poses[n, 0], poses[n, 1] = corner[0] + ix * step, corner[1] + iy * step
-        poses[n, 2] = guess[2] + (h - half_turns) * turn_step
+        poses[n, 2] = prior[2] + (h - half_turns) * turn_step
         scores[max(0, h - 1) : h + 2, max(0, iy - 2) : iy + 3, max(0, ix - 2) : ix + 3] = -np.inf
     return poses

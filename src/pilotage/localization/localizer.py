@@ -35,10 +35,8 @@ from pilotage.localization.proposals import propose_anywhere, propose_by_corners
 from pilotage.localization.tracking import TrackingSettings, predict, thin, weigh
 from pilotage.localization.visibility import Look, VisibilityModel, VisibilitySettings, look
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
-from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
-from pilotage.scan_matching import PerceptionMap
-from pilotage.scan_matching.local_map import PerceptionMapSettings
-from pilotage.scan_matching.register import RegistrationSettings, register
+from pilotage.perception import LaserScan, Odometry
+from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
 from pilotage.shape import PartialShape, Simplification, simplify_all
 from pilotage.shape.corners import find_corners
 
@@ -48,9 +46,7 @@ class LocalizerSettings:
     """The settings of all stages, and how often belief is weighed."""
 
     atlas: AtlasSettings = field(default_factory=AtlasSettings)
-    perception: PerceptionSettings = field(default_factory=PerceptionSettings)
-    perception_map: PerceptionMapSettings = field(default_factory=PerceptionMapSettings)
-    registration: RegistrationSettings = field(default_factory=RegistrationSettings)
+    scan_matching: ScanMatchingSettings = field(default_factory=ScanMatchingSettings)
     features: Simplification = field(default_factory=lambda: Simplification(min_relevance=0.08))  # [rad·m]
     visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
     alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
@@ -106,7 +102,7 @@ class Localizer:
             )
         self._tracking = tracking
         self._model = VisibilityModel(self.atlas, self.settings.visibility)
-        self.perception_map = PerceptionMap(self.settings.perception_map)
+        self.scan_matcher = ScanMatcher(self.settings.scan_matching)
         states = self._first_states(start)
         self.belief = Belief(states, np.zeros(states.shape[1]))
         self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
@@ -124,15 +120,13 @@ class Localizer:
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Take one scan in, give one estimate out."""
         settings = self.settings
-        shapes = perceive(scan, settings.perception)  # 2.1, 2.2
-        registration = register(shapes, self.perception_map, odometry, settings.registration)  # 3.3
-        self.perception_map = self.perception_map.merged(registration)
-        motion = self._motion @ registration.last_from_base if self._motion else Pose2.identity()
+        seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3
+        motion = self._motion @ seen.last_from_base if self._motion else Pose2.identity()
         if self._motion is None or settings.is_due(motion):
             if self._search_due:
                 self._search()
-            self._weigh(scan, shapes, motion)
-            self._search_due = self._motion is not None and not settings.is_due(registration.last_from_base)
+            self._weigh(scan, seen.shapes, motion)
+            self._search_due = self._motion is not None and not settings.is_due(seen.last_from_base)
             if not self._search_due:
                 self._search()
             self._settle(motion)

@@ -37,7 +37,7 @@ class Reckoning:
     @property
     def odom_from_base(self) -> Pose2:
         """The registered pose, carried on by what the wheels said since."""
-        return self.localizer.perception_map.odom_from_base @ self._since_perceived
+        return self.localizer.scan_matcher.odom_from_base @ self._since_perceived
 
     @property
     def placement(self) -> Placement:

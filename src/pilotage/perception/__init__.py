@@ -6,6 +6,5 @@ perceive(scan, PerceptionSettings()) -> tuple[PartialShape, ...]
 
 from pilotage.perception.perceive import PerceptionSettings, perceive
 from pilotage.perception.scan import LaserScan, Odometry, Reading
-from pilotage.perception.segmentation import SegmentationSettings
 
-__all__ = ["LaserScan", "Odometry", "PerceptionSettings", "Reading", "SegmentationSettings", "perceive"]
+__all__ = ["LaserScan", "Odometry", "PerceptionSettings", "Reading", "perceive"]

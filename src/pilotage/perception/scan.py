@@ -1,4 +1,4 @@
-"""What the robot reads: scans of its laser and its own reckoning of how it moved."""
+"""What the robot reads: scans of its laser, and odometry."""
 
 import math
 from dataclasses import dataclass, field
@@ -8,6 +8,13 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Pose2, frozen_array
 
+MAX_TRUSTED_RANGE = 100.0
+"""[m] A farther return counts as none: 2-D scanners of robots reach 80 m or less, and one wrong range of
+1e9 m would make the local map as large."""
+
+MAX_MOUNT_DISTANCE = 10.0
+"""[m] A laser farther from the robot's base is a mistake in its description, millimetres taken for metres."""
+
 
 @dataclass(frozen=True, eq=False)
 class LaserScan:
@@ -15,7 +22,7 @@ class LaserScan:
 
     Beam i points at `angle_min + i * angle_increment` in the laser's frame (x forward, y left). A range of
     -inf means too close, +inf no return, nan invalid; a range beyond [range_min, range_max] counts as the
-    first two of these.
+    first two of these, and so does a range beyond `MAX_TRUSTED_RANGE`.
     """
 
     stamp: float  # [s]
@@ -27,7 +34,7 @@ class LaserScan:
     base_from_laser: Pose2 = field(default_factory=Pose2.identity)
 
     def __post_init__(self) -> None:
-        """Copy the ranges, refuse what no laser can mean, and spell out the limits."""
+        """Copy the ranges, reject impossible values, and replace ranges beyond the limits."""
         ranges = np.array(self.ranges, dtype=np.float64)
         if ranges.ndim != 1 or len(ranges) == 0:
             raise ValueError(f"ranges must have shape (n,) with n >= 1, got {ranges.shape}")
@@ -40,7 +47,12 @@ class LaserScan:
             raise ValueError(
                 f"ranges need 0 <= range_min < range_max, got {self.range_min}, {self.range_max}"
             )
-        ranges[ranges >= self.range_max] = np.inf
+        mount = math.hypot(self.base_from_laser.x, self.base_from_laser.y)
+        if mount > MAX_MOUNT_DISTANCE:
+            raise ValueError(
+                f"base_from_laser must be within {MAX_MOUNT_DISTANCE:g} m of the base, got {mount:g} m"
+            )
+        ranges[ranges >= min(self.range_max, MAX_TRUSTED_RANGE)] = np.inf
         ranges[ranges < self.range_min] = -np.inf
         object.__setattr__(self, "ranges", frozen_array(ranges))
 
@@ -70,10 +82,15 @@ class LaserScan:
 
 @dataclass(frozen=True, slots=True)
 class Odometry:
-    """The robot's own reckoning; believed only from one reading to the next."""
+    """The pose that the robot's odometry reports; used only from one reading to the next."""
 
     stamp: float  # [s]
     odom_from_base: Pose2  # [m, rad]
+
+    def __post_init__(self) -> None:
+        """Reject a stamp that is not a number."""
+        if not math.isfinite(self.stamp):
+            raise ValueError(f"stamp must be finite, got {self.stamp}")
 
 
 @dataclass(frozen=True, slots=True)

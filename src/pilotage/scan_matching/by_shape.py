@@ -1,11 +1,11 @@
 """Find the robot's pose by shape alone, as the paper does (Wolter 2001, sections 3.2 and 3.3, steps 2 and 3).
 
-Each perceived shape is matched with the known shapes near it. Each match induces a pose of the robot, and the
-mean of these is taken. Kept for comparison: a pose from point to segment is more exact (decision 0006).
+Each perceived shape is matched with the shapes of the map near it. Each match induces a pose of the robot, and
+their mean is taken. This is `Method.SHAPES`, an option: a pose from point to segment is more exact and faster
+(decision 0006).
 """
 
 import math
-from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,35 +13,33 @@ from pilotage.contours import Matching, PartialMatch, match_partial_near
 from pilotage.geometry import Array, Pose2
 from pilotage.shape import PartialShape
 
+MATCHING = Matching()
 
-@dataclass(frozen=True, slots=True)
-class ShapeSettings:
-    """Which matches tell the pose."""
+GATE = 0.5
+"""[m] Shapes farther apart than this, where odometry puts them, are not compared."""
 
-    matching: Matching = field(default_factory=Matching)
-    gate: float = 0.5  # [m] shapes farther apart than this, where odometry puts them, are not compared
-    max_vertices: int = 12  # nor are longer ones: the time grows with the square of their numbers
-    max_cost: float = -0.045  # [rad²] a meter of match: the threshold of step 2; the reward alone is -0.05
+MAX_VERTICES = 12
+"""Longer shapes are not compared either: the time grows with the square of their numbers."""
+
+MAX_COST = -0.045
+"""[rad²] a metre of match: the threshold of step 2; the reward for length alone is -0.05."""
 
 
 def find_pose_by_shape(
-    shapes: tuple[PartialShape, ...],
-    known: tuple[PartialShape, ...],
-    odom_from_base: Pose2,
-    settings: ShapeSettings,
+    shapes: tuple[PartialShape, ...], known: tuple[PartialShape, ...], odom_from_base: Pose2
 ) -> Pose2:
-    """Average the poses that matches induce, by the length they match; without a match, believe the guess."""
+    """Average the poses that matches induce, weighted by matched length; without a match, keep the prior."""
     matches = [
         match
         for shape in shapes
-        if len(shape.polyline) <= settings.max_vertices
-        for match in _best_match(shape, known, odom_from_base, settings)
+        if len(shape.polyline) <= MAX_VERTICES
+        for match in _best_match(shape, known, odom_from_base)
     ]
     if not matches:
         return odom_from_base
     lengths = np.array([match.length for match in matches])
     poses = [match.known_from_seen for match in matches]
-    x, y, c, s = np.average(
+    x, y, c, s = np.average(  # section 3.3, step 3: the mean of the poses that matches induce
         [(pose.x, pose.y, math.cos(pose.theta), math.sin(pose.theta)) for pose in poses],
         axis=0,
         weights=lengths,
@@ -50,17 +48,17 @@ def find_pose_by_shape(
 
 
 def _best_match(
-    shape: PartialShape, known: tuple[PartialShape, ...], odom_from_base: Pose2, settings: ShapeSettings
+    shape: PartialShape, known: tuple[PartialShape, ...], odom_from_base: Pose2
 ) -> tuple[PartialMatch, ...]:
-    """Match a shape with each known one near it; return the cheapest, if there is any."""
+    """Match a shape with each known one near it; return the cheapest match, if there is any (3.3, step 2)."""
     low, high = _bounds(odom_from_base @ shape.polyline.vertices)
     matches: list[PartialMatch] = []
     for other in known:
         other_low, other_high = _bounds(other.polyline.vertices)
         gap = np.maximum(np.maximum(other_low - high, low - other_high), 0.0)
-        if len(other.polyline) <= settings.max_vertices and np.hypot(*gap) <= settings.gate:
-            matches += match_partial_near(shape, other, odom_from_base, settings.matching)[:1]
-    matches = [match for match in matches if match.cost <= settings.max_cost * match.length]
+        if len(other.polyline) <= MAX_VERTICES and np.hypot(*gap) <= GATE:
+            matches += match_partial_near(shape, other, odom_from_base, MATCHING)[:1]
+    matches = [match for match in matches if match.cost <= MAX_COST * match.length]
     return (min(matches, key=lambda match: match.cost),) if matches else ()
 
 

@@ -1,16 +1,75 @@
-"""Fit the points of a scan to the segments of the map: search for starts, refine each, keep the best."""
+"""Fit the points of a scan to the segments of the local map: search for starts, refine each, keep the best.
+
+This is how step 3 of section 3.3 corrects the pose: point to segment instead of by shape (decision 0006).
+"""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2
-from pilotage.scan_matching.local_map import PerceptionMap, segments_of
-from pilotage.scan_matching.motion_prior import Guess
-from pilotage.scan_matching.odometry_noise import OdometryNoise
-from pilotage.scan_matching.settings import RegistrationSettings
-from pilotage.shape.partial import PartialShape
+from pilotage import kernels
+from pilotage.geometry import Array, Pose2, segments_of
+from pilotage.scan_matching.local_map import LocalMap
+from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise
+from pilotage.shape import PartialShape
+
+SAMPLE_STEP = 0.05
+"""[m] Distance between the points that stand for a shape."""
+
+FULL_INCIDENCE = math.radians(25.0)
+"""[rad] Walls seen at a smaller angle than this weigh less: few returns on much length."""
+
+KERNEL_SCALES = np.array([0.5, 0.35, 0.25, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.05, 0.05, 0.05])
+"""[m] Scale of the robust kernel (Geman and McClure) in each step: it starts wide and ends at 5 cm."""
+
+SIGMA = 0.14
+"""[m] Standard deviation of one sampled point. Neighbors err alike, so it is more than that of a range."""
+
+MIN_COSINE = 0.5
+"""Lines less than 60 degrees apart may be the same."""
+
+OVERHANG = 0.1
+"""[m] A point may lie this far past the end of its segment."""
+
+ROBUST_SCALE = 4.0
+"""Squared Mahalanobis distance from the prior at which it loses half its hold: odometry is right or grossly wrong."""
+
+PRIOR_WEIGHT = 0.03
+"""Share of inliers that outweighs one unit of log(1 + squared distance / ROBUST_SCALE)."""
+
+SEARCH_POINTS = 80
+"""Number of points of the scan with which each pose is tried, about."""
+
+SEARCH_STARTS = 10
+"""Number of poses from which refinement starts."""
+
+SEARCH_TURN = math.radians(2.0)
+"""[rad] Between the headings tried."""
+
+SEARCH_STRIDE = 2
+"""Cells of the map's field between the positions tried: 20 cm."""
+
+SEARCH_SCALE = 0.3
+"""[m] Distance at which a point counts half in the search."""
+
+SEARCH_STDS = 3.0
+"""Poses are tried within this many standard deviations of the prior ..."""
+
+SEARCH_LIMITS = 1.6, math.pi / 2
+"""[m, rad] ... but not farther than this from its mean."""
+
+LOST_INLIERS = 0.3
+"""With a smaller share of inliers, odometry is taken to be grossly wrong, and the search is widened:"""
+
+LOST_DISTANCE = 0.2
+"""[m] to this ..."""
+
+LOST_DISTANCE_PER_METER = 2.2
+"""[m/m] ... and this times the reported motion, as a robot may have gone back instead of on ..."""
+
+LOST_LIMITS = 3.0, math.radians(60.0)
+"""[m, rad] ... but not farther than this."""
 
 
 class Samples(NamedTuple):
@@ -21,133 +80,108 @@ class Samples(NamedTuple):
     weights: Array  # (n,)
 
 
-def take_samples(shapes: tuple[PartialShape, ...], settings: RegistrationSettings) -> Samples:
-    """Place points along shapes in the base frame, near which the laser sits.
-
-    A wall seen at a grazing angle shows few returns on much length, and where it lies along the line of sight
-    is doubtful: it weighs by the sine of the angle, up to the angle from which all weigh by their length.
-    """
-    from pilotage.kernels.segment_sampling import sample_segments
-
-    points, directions, weights, _ = sample_segments(segments_of(shapes), settings.sample_step)
-    ranges = np.maximum(np.hypot(points[:, 0], points[:, 1]), np.finfo(float).tiny)
-    sines = np.abs(points[:, 0] * directions[:, 1] - points[:, 1] * directions[:, 0]) / ranges
-    return Samples(points, directions, weights * np.minimum(sines / math.sin(settings.full_incidence), 1.0))
-
-
 class Fit(NamedTuple):
     """A refined pose."""
 
     pose: Array  # (3,) x, y, theta
     hessian: Array  # (3, 3)
-    support: float  # sum of weights of the points that lie on known shapes
-    error: float  # weighted sum of their squared distances [m^2]
+    inlier_weight: float  # sum of weights of the points that lie on shapes of the map
 
 
-def find_best_fit(
-    samples: Samples, perception_map: PerceptionMap, guess: Guess, settings: RegistrationSettings
-) -> Fit:
-    """Refine the guess and the poses found round it; take the one best supported, and least against odometry.
+def take_samples(shapes: tuple[PartialShape, ...]) -> Samples:
+    """Place points along shapes in the base frame, near which the laser sits.
 
-    If none is well supported, search as far as the robot can have gone.
+    A wall seen at a grazing angle shows few returns on much length, and where it lies along the line of sight
+    is doubtful. So points weigh by the sine of the angle of incidence, up to `FULL_INCIDENCE`.
+    """
+    segments = segments_of([shape.polyline for shape in shapes])
+    points, directions, weights, _ = kernels.segment_sampling.sample_segments(segments, SAMPLE_STEP)
+    ranges = np.maximum(np.hypot(points[:, 0], points[:, 1]), np.finfo(float).tiny)
+    sines = np.abs(points[:, 0] * directions[:, 1] - points[:, 1] * directions[:, 0]) / ranges
+    return Samples(points, directions, weights * np.minimum(sines / math.sin(FULL_INCIDENCE), 1.0))
+
+
+def find_best_fit(samples: Samples, local_map: LocalMap, prior: MotionPrior) -> Fit:
+    """Refine the prior's pose and those found around it; take the one with most inliers, least against odometry.
+
+    If none has enough inliers, search as far as the robot can have gone.
     """
     total = float(samples.weights.sum())
-    search = settings.search
     window = (
-        min(search.reach * guess.place, search.max_place),
-        min(search.reach * guess.turn, search.max_turn),
+        min(SEARCH_STDS * prior.position_std, SEARCH_LIMITS[0]),
+        min(SEARCH_STDS * prior.heading_std, SEARCH_LIMITS[1]),
     )
-    starts = _search(samples, perception_map, guess, window, settings)
-    fits = _refine(samples, perception_map, guess, np.vstack([guess.pose, starts]), settings)
-    if max(fit.support for fit in fits) < search.lost_support * total:
-        distance = math.hypot(guess.motion.x, guess.motion.y)
-        place, turn = OdometryNoise().deviations(guess.motion)
-        guess = guess._replace(place=max(place, guess.place), turn=max(turn, guess.turn))
-        far = search.lost_place + search.lost_place_per_meter * distance
-        window = (min(far, search.lost_max_place), search.lost_turn)
-        starts = _search(samples, perception_map, guess, window, settings)
-        fits += _refine(samples, perception_map, guess, starts, settings)
+    starts = _search(samples, local_map, prior, window)
+    fits = _refine(samples, local_map, prior, np.vstack([prior.pose, starts]))
+    if max(fit.inlier_weight for fit in fits) < LOST_INLIERS * total:
+        prior = _widened(prior)
+        distance = LOST_DISTANCE + LOST_DISTANCE_PER_METER * math.hypot(prior.motion.x, prior.motion.y)
+        distance = max(distance, SEARCH_STDS * prior.position_std)
+        starts = _search(samples, local_map, prior, (min(distance, LOST_LIMITS[0]), LOST_LIMITS[1]))
+        fits += _refine(samples, local_map, prior, starts)
 
     def quality(fit: Fit) -> float:
-        surprise = math.log1p(guess.distance(fit.pose) / settings.tail)
-        return fit.support / total - settings.penalty * surprise
+        surprise = math.log1p(prior.squared_distance(fit.pose) / ROBUST_SCALE)
+        return fit.inlier_weight / total - PRIOR_WEIGHT * surprise
 
     return max(fits, key=quality)
 
 
-def fit_at(
-    samples: Samples, perception_map: PerceptionMap, pose: Pose2, settings: RegistrationSettings
-) -> Fit:
-    """Tell how well a pose found otherwise fits."""
-    from pilotage.kernels.point_to_segment import linearize
-
+def fit_at(samples: Samples, local_map: LocalMap, pose: Pose2) -> Fit:
+    """Tell how well a pose that was found otherwise fits."""
     at = np.array([pose.x, pose.y, pose.theta])
-    hessian, _, support, error = linearize(
-        *samples,
-        perception_map.segment_field,
-        at,
-        settings.widths[-1],
-        settings.min_cosine,
-        settings.overhang,
+    hessian, _, inlier_weight = kernels.point_to_segment.linearize(
+        *samples, local_map.segment_field, at, KERNEL_SCALES[-1], MIN_COSINE, OVERHANG
     )
-    return Fit(at, hessian, support, error)
+    return Fit(at, hessian, inlier_weight)
 
 
-def _search(
-    samples: Samples,
-    perception_map: PerceptionMap,
-    guess: Guess,
-    window: tuple[float, float],
-    settings: RegistrationSettings,
-) -> Array:
+def _widened(prior: MotionPrior) -> MotionPrior:
+    """Trust odometry no more than that of a bad robot."""
+    position, heading = OdometryNoise().stds(prior.motion)
+    return prior._replace(
+        position_std=max(position, prior.position_std), heading_std=max(heading, prior.heading_std)
+    )
+
+
+def _search(samples: Samples, local_map: LocalMap, prior: MotionPrior, window: tuple[float, float]) -> Array:
     """Find poses from which refinement may start, (n, 3)."""
-    from pilotage.kernels.pose_search import search_poses
-
-    search = settings.search
-    every = max(1, len(samples.points) // search.points)
+    every = max(1, len(samples.points) // SEARCH_POINTS)
     chosen = slice(every // 2, None, every)
     points, directions, weights = (np.ascontiguousarray(values[chosen]) for values in samples)
-    poses: Array = search_poses(
+    poses: Array = kernels.pose_search.search_poses(
         points,
         directions,
         weights,
-        perception_map.segment_field,
-        guess.pose,
-        np.array([guess.place, guess.turn]),
+        local_map.segment_field,
+        prior.pose,
+        np.array([prior.position_std, prior.heading_std]),
         np.array(window),
-        search.turn_step,
-        search.stride,
-        search.width,
-        settings.min_cosine,
-        settings.penalty,
-        settings.tail,
-        search.count,
+        SEARCH_TURN,
+        SEARCH_STRIDE,
+        SEARCH_SCALE,
+        MIN_COSINE,
+        PRIOR_WEIGHT,
+        ROBUST_SCALE,
+        SEARCH_STARTS,
     )
     return poses
 
 
-def _refine(
-    samples: Samples,
-    perception_map: PerceptionMap,
-    guess: Guess,
-    starts: Array,
-    settings: RegistrationSettings,
-) -> list[Fit]:
+def _refine(samples: Samples, local_map: LocalMap, prior: MotionPrior, starts: Array) -> list[Fit]:
     """Refine each start, point to segment."""
-    from pilotage.kernels.point_to_segment import refine_pose
-
     return [
         Fit(
-            *refine_pose(
+            *kernels.point_to_segment.refine_pose(
                 *samples,
-                perception_map.segment_field,
+                local_map.segment_field,
                 start,
-                guess.pose,
-                guess.information * settings.deviation**2,
-                settings.tail * settings.deviation**2,
-                np.array(settings.widths),
-                settings.min_cosine,
-                settings.overhang,
+                prior.pose,
+                prior.information * SIGMA**2,
+                ROBUST_SCALE * SIGMA**2,
+                KERNEL_SCALES,
+                MIN_COSINE,
+                OVERHANG,
             )
         )
         for start in starts

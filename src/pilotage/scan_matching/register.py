@@ -1,90 +1,103 @@
-"""Register a scan into the perception map (Wolter 2001, sections 3.2 and 3.3; decision 0006).
+"""Register a scan to the local map (Wolter 2001, section 3.3, steps 1 to 3; decision 0006).
 
-register(shapes, perception_map, odometry, RegistrationSettings()) -> Registration
-    One scan, as the shapes that `perceive` returned. Then `perception_map.merged(registration)`.
-
-A robot that moves calls both for every reading:
-
-    perception_map = PerceptionMap()
-    for reading in log:
-        shapes = perceive(reading.scan, PerceptionSettings())
-        registration = register(shapes, perception_map, reading.odometry, RegistrationSettings())
-        perception_map = perception_map.merged(registration)
-        registration.last_from_base   # the motion since the last reading
-        perception_map.shapes         # the local map of the last 10 m, in `odom`
+register(shapes, local_map, prior) -> Registration
+    One scan, as the shapes that `perceive` returned, near the pose that odometry tells.
 """
 
-import math
+from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 
-from pilotage.geometry import Pose2, frozen_array
-from pilotage.perception import Odometry
+from pilotage import kernels
+from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.scan_matching.by_shape import find_pose_by_shape
-from pilotage.scan_matching.local_map import PerceptionMap
-from pilotage.scan_matching.motion_prior import Guess, learn, predict
-from pilotage.scan_matching.overlap import find_correspondences
-from pilotage.scan_matching.refine import find_best_fit, fit_at, take_samples
-from pilotage.scan_matching.registration import Registration
-from pilotage.scan_matching.settings import Method, RegistrationSettings
-from pilotage.shape.partial import PartialShape
+from pilotage.scan_matching.local_map import LocalMap, owners_of_segments
+from pilotage.scan_matching.odometry import MotionPrior
+from pilotage.scan_matching.refine import Fit, find_best_fit, fit_at, take_samples
+from pilotage.shape import PartialShape
 
-__all__ = ["Method", "RegistrationSettings", "register"]
+KNOWN_DISTANCE = 0.1
+"""[m] A part of a shape is known if it lies this close to a shape of the map that runs the same way."""
+
+KNOWN_SHARE = 0.95
+"""A shape is known if this share of its length is; less is new, and worth entering."""
+
+SAME_WAY = 0.7
+"""Cosine: lines less than 45 degrees apart run the same way."""
+
+SAMPLE_STEP = 0.1
+"""[m] Distance between the points at which shapes are compared with the map."""
+
+
+class Method(Enum):
+    """How the pose is found."""
+
+    SEGMENTS = "segments"  # samples of the shapes against segments of the map, from many starts
+    SHAPES = "shapes"  # the mean of the poses that matches of shapes induce, as in the paper
+
+
+class Registration(NamedTuple):
+    """Where a scan was taken in the frame of the local map, and what it shows that the map does not."""
+
+    odom_from_base: Pose2
+    fit: Fit | None  # None if there was nothing to compare, and the pose is that of the prior
+    inlier_share: float  # [0..1] share of the length of all shapes that lies on the local map
+    unmatched: tuple[int, ...]  # indices of the shapes that the map does not hold yet
 
 
 def register(
     shapes: tuple[PartialShape, ...],
-    perception_map: PerceptionMap,
-    odometry: Odometry,
-    settings: RegistrationSettings,
+    local_map: LocalMap,
+    prior: MotionPrior,
+    method: Method = Method.SEGMENTS,
 ) -> Registration:
-    """Find where a scan was taken, from its shapes, the map and the motion that odometry reports.
+    """Find where a scan was taken, from its shapes, the map and what odometry tells (3.3, steps 1 to 3).
 
-    With an empty map, or shapes that match nothing, the motion is that of odometry.
+    With an empty map, or without shapes, the pose is that of the prior.
     """
-    guess = predict(perception_map, odometry)
-    samples = take_samples(shapes, settings)
-    if not samples.weights.any() or len(perception_map.segments) == 0:
-        return _unregistered(shapes, perception_map, odometry, guess)
-    if settings.method is Method.SHAPES:
-        pose = find_pose_by_shape(shapes, perception_map.shapes, guess.odom_from_base, settings.shape)
-        fit = fit_at(samples, perception_map, pose, settings)
+    samples = take_samples(shapes)
+    if not samples.weights.any() or len(local_map.segments) == 0:
+        return Registration(prior.odom_from_base, None, 0.0, tuple(range(len(shapes))))
+    if method is Method.SHAPES:  # the paper's own pose: sections 3.2 and 3.3, steps 2 and 3
+        fit = fit_at(samples, local_map, find_pose_by_shape(shapes, local_map.shapes, prior.odom_from_base))
     else:
-        fit = find_best_fit(samples, perception_map, guess, settings)
+        fit = find_best_fit(samples, local_map, prior)  # section 3.3, step 3, by decision 0006
     odom_from_base = Pose2(*fit.pose.tolist())
-    correspondences = find_correspondences(shapes, perception_map, odom_from_base, settings.overlap)
-    matched = {correspondence.seen for correspondence in correspondences}
-    information = fit.hessian / settings.deviation**2 + guess.information
-    support = fit.support / float(samples.weights.sum())
     return Registration(
-        odometry,
         odom_from_base,
-        perception_map.odom_from_base.inverse() @ odom_from_base,
-        shapes,
-        correspondences,
-        unmatched=tuple(index for index in range(len(shapes)) if index not in matched),
-        support=support,
-        residual=math.sqrt(fit.error / fit.support) if fit.support > 0.0 else 0.0,
-        covariance=frozen_array(np.linalg.inv(information)),
-        noise=learn(perception_map.noise, guess, fit.pose, fit.hessian, settings)
-        if support >= settings.learning_support
-        else perception_map.noise,
+        fit,
+        fit.inlier_weight / float(samples.weights.sum()),
+        find_unmatched(shapes, local_map, odom_from_base),  # section 3.3, step 2, at the corrected pose
     )
 
 
-def _unregistered(
-    shapes: tuple[PartialShape, ...], perception_map: PerceptionMap, odometry: Odometry, guess: Guess
-) -> Registration:
-    """Believe odometry alone."""
-    return Registration(
-        odometry,
-        guess.odom_from_base,
-        guess.motion,
-        shapes,
-        correspondences=(),
-        unmatched=tuple(range(len(shapes))),
-        support=0.0,
-        residual=0.0,
-        covariance=frozen_array(np.linalg.inv(guess.information)),
-        noise=perception_map.noise,
+def find_unmatched(
+    shapes: tuple[PartialShape, ...], local_map: LocalMap, odom_from_base: Pose2
+) -> tuple[int, ...]:
+    """List the perceived shapes that shapes of the map do not cover (section 3.3, step 2)."""
+    known = local_map.segment_field
+    segments = segments_of([shape.polyline for shape in shapes])
+    points, directions, weights, owners = kernels.segment_sampling.sample_segments(segments, SAMPLE_STEP)
+    points, directions = odom_from_base @ points, directions @ odom_from_base.rotation.T
+    nearest = kernels.segment_field.find_nearest(points, directions, known, SAME_WAY)
+    distances = np.where(
+        nearest == kernels.segment_field.NONE, np.inf, _distances(points, known.segments[nearest])
     )
+    hit = distances <= KNOWN_DISTANCE
+    shape_of_point = owners_of_segments(shapes)[owners]
+    whole = np.bincount(shape_of_point, weights, len(shapes))
+    covered = np.bincount(shape_of_point[hit], weights[hit], len(shapes))
+    is_known = (covered > 0.0) & (covered >= KNOWN_SHARE * whole)
+    return tuple(np.flatnonzero(~is_known).tolist())
+
+
+def _distances(points: Array, segments: Array) -> Array:
+    """Return the distance of each point (n, 2) from its segment (n, 4), (n,) [m]."""
+    along = segments[:, 2:] - segments[:, :2]
+    offsets = points - segments[:, :2]
+    squared_lengths = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+    share = np.clip((offsets * along).sum(axis=1) / squared_lengths, 0.0, 1.0)
+    gaps = offsets - share[:, None] * along
+    distances: Array = np.hypot(gaps[:, 0], gaps[:, 1])
+    return distances

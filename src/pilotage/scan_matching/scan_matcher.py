@@ -1,0 +1,110 @@
+"""Scan by scan: perceive, register, merge into the local map (Wolter 2001, sections 2.1, 2.2 and 3.3)."""
+
+import math
+from dataclasses import dataclass, field
+
+from pilotage.geometry import Pose2
+from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
+from pilotage.scan_matching.local_map import LocalMap
+from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise, reported_motion, update_noise
+from pilotage.scan_matching.register import Method, register
+from pilotage.shape import PartialShape
+
+MIN_LEARNING_INLIERS = 0.25
+"""With a smaller share of inliers, registration cannot judge odometry."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScanMatchingSettings:
+    """How scans are perceived and registered, and what the local map keeps."""
+
+    perception: PerceptionSettings = field(default_factory=PerceptionSettings)
+    method: Method = Method.SEGMENTS  # "segments", or "shapes": the paper's own, slower and less exact
+    window: float = 10.0  # [m] of travel that the local map keeps; over 10 m it drifts by less than 10 cm
+    keyframe_distance: float = 0.3  # [m] a scan is entered once the robot has moved this far ...
+    keyframe_turn: float = math.radians(10.0)  # [rad] ... or turned so much since the last one entered
+
+    def __post_init__(self) -> None:
+        """Reject invalid settings."""
+        if not self.window > 0.0:
+            raise ValueError(f"window must be > 0 m, got {self.window}")
+        for name in ("keyframe_distance", "keyframe_turn"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScanMotion:
+    """What one scan told of the robot's motion.
+
+    The frame `odom` is the one of the local map: poses in it are continuous and drift. It is odometry as
+    registration corrected it, not the raw one.
+    """
+
+    last_from_base: Pose2  # the motion since the last reading
+    odom_from_base: Pose2
+    shapes: tuple[PartialShape, ...]  # what the scan shows, in the base frame
+    inlier_share: float  # [0..1] share of the length of all shapes that lies on the local map
+    odometry_refused: bool  # it reported a motion that no robot makes, and was not used
+
+
+class ScanMatcher:
+    """Follow the robot's motion scan by scan, and keep the local map of the last metres.
+
+    An update that raises leaves the state as it was.
+    """
+
+    def __init__(self, settings: ScanMatchingSettings | None = None) -> None:
+        self.settings = settings if settings is not None else ScanMatchingSettings()
+        self.local_map = LocalMap()
+        self.odom_from_base = Pose2.identity()
+        self.noise = OdometryNoise()  # as learned so far
+        self.refused_count = 0  # readings of odometry that were refused so far
+        self._odometry: Odometry | None = None  # the last reading; None before the first
+        self._traveled = 0.0  # [m]
+        self._odom_from_keyframe = Pose2.identity()  # where the last scan was entered
+
+    def update(self, scan: LaserScan, odometry: Odometry) -> ScanMotion:
+        """Take in one scan, and the odometry at its moment."""
+        shapes = perceive(scan, self.settings.perception)  # sections 2.1, 2.2
+        prior, refused = self._motion_prior(odometry)
+        registration = register(shapes, self.local_map, prior, self.settings.method)  # 3.3, steps 1 to 3
+        odom_from_base, noise = registration.odom_from_base, self.noise
+        if registration.fit is None:
+            last_from_base = prior.motion
+        else:
+            last_from_base = self.odom_from_base.inverse() @ odom_from_base
+            if not refused and registration.inlier_share >= MIN_LEARNING_INLIERS:
+                noise = update_noise(noise, prior, registration.fit.pose, registration.fit.hessian)
+        traveled = self._traveled + math.hypot(last_from_base.x, last_from_base.y)
+        is_keyframe = self._is_keyframe(odom_from_base)
+        local_map = self.local_map
+        if is_keyframe:  # 3.3, step 4
+            new = tuple(shapes[index].moved(odom_from_base) for index in registration.unmatched)
+            local_map = local_map.extended(new, traveled, self.settings.window)
+
+        if is_keyframe:
+            self._odom_from_keyframe = odom_from_base
+        self.local_map, self.odom_from_base, self.noise = local_map, odom_from_base, noise
+        self._odometry, self._traveled = odometry, traveled
+        self.refused_count += refused
+        return ScanMotion(last_from_base, odom_from_base, shapes, registration.inlier_share, refused)
+
+    def _motion_prior(self, odometry: Odometry) -> tuple[MotionPrior, bool]:
+        """Carry the last pose on by what odometry reports; tell whether the report is refused."""
+        if self._odometry is None:
+            return MotionPrior.of(Pose2.identity(), self.odom_from_base, self.noise), False
+        motion = reported_motion(self._odometry, odometry)
+        if motion is None:
+            return MotionPrior.unknown(self.odom_from_base), True
+        return MotionPrior.of(motion, self.odom_from_base, self.noise), False
+
+    def _is_keyframe(self, odom_from_base: Pose2) -> bool:
+        """Tell whether the robot moved far enough for a new scan to be worth entering."""
+        if not self.local_map.shapes:
+            return True
+        motion = self._odom_from_keyframe.inverse() @ odom_from_base
+        return (
+            math.hypot(motion.x, motion.y) >= self.settings.keyframe_distance
+            or abs(motion.theta) >= self.settings.keyframe_turn
+        )
