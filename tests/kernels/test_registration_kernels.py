@@ -25,7 +25,7 @@ ROOM = np.array(
     ]
 )
 FREE = np.zeros((3, 3))  # no prior
-WIDTHS = np.array([0.5, 0.3, 0.2, 0.1, 0.05, 0.05, 0.05, 0.05])
+SCALES = np.array([0.5, 0.3, 0.2, 0.1, 0.05, 0.05, 0.05, 0.05])
 
 coordinate = st.floats(-3.0, 3.0).map(lambda value: round(value, 2))
 segment_lists = st.lists(
@@ -106,16 +106,16 @@ def test_singular_equations_move_nothing():
 
 
 def test_the_gradient_is_that_of_the_robust_cost():
-    pose, width, overhang = np.array([0.05, -0.03, 0.02]), 0.2, 0.1
+    pose, scale, overhang = np.array([0.05, -0.03, 0.02]), 0.2, 0.1
     field = build_segment_field(ROOM, CELL, REACH)
     points, directions, weights = seen_from((0.0, 0.0, 0.0), step=0.37)
     weights[:] = 1.0
-    _, gradient, _, _ = linearize(points, directions, weights, field, pose, width, -1.0, overhang)
+    _, gradient, _ = linearize(points, directions, weights, field, pose, scale, -1.0, overhang)
     h = 1e-6
     for axis in range(3):
         step = np.eye(3)[axis] * h
-        plus = oracles.robust_cost(points, field, pose + step, width, overhang)
-        minus = oracles.robust_cost(points, field, pose - step, width, overhang)
+        plus = oracles.robust_cost(points, field, pose + step, scale, overhang)
+        minus = oracles.robust_cost(points, field, pose - step, scale, overhang)
 
         assert gradient[axis] == pytest.approx((plus - minus) / (2 * h), rel=1e-3, abs=1e-4)
 
@@ -127,12 +127,12 @@ def test_a_displaced_room_is_put_back(x, y, theta):
     field = build_segment_field(ROOM, CELL, REACH)
     points, directions, weights = seen_from(true)
     start = true + np.array([x, y, theta])
-    pose, _, support, _ = refine_pose(
-        points, directions, weights, field, start, start, FREE, 1.0, WIDTHS, 0.5, 0.1
+    pose, _, inlier_weight = refine_pose(
+        points, directions, weights, field, start, start, FREE, 1.0, SCALES, 0.5, 0.1
     )
 
     np.testing.assert_allclose(pose, true, atol=1e-3)
-    assert support > 0.95 * weights.sum()  # in a corner the nearest segment may be the other wall
+    assert inlier_weight > 0.95 * weights.sum()  # in a corner the nearest segment may be the other wall
 
 
 def test_along_a_corridor_the_prior_holds():
@@ -144,7 +144,7 @@ def test_along_a_corridor_the_prior_holds():
     prior = np.array([1.0, 0.0, 0.0])
     information = np.diag([0.1, 0.1, 0.1])
     pose, *_ = refine_pose(
-        points, directions, weights, field, prior, prior, information, 1.0, WIDTHS, 0.5, 0.1
+        points, directions, weights, field, prior, prior, information, 1.0, SCALES, 0.5, 0.1
     )
 
     np.testing.assert_allclose(pose, [1.0, 0.1, 0.0], atol=2e-3)
@@ -153,9 +153,9 @@ def test_along_a_corridor_the_prior_holds():
 def test_walls_that_run_the_other_way_do_not_attract():
     field = build_segment_field(np.array([[3.0, 0.0, -3.0, 0.0]]), CELL, REACH)
     points, directions, weights, _ = sample_segments(np.array([[-2.0, 0.1, 2.0, 0.1]]), 0.1)
-    *_, support, _ = linearize(points, directions, weights, field, np.zeros(3), 0.2, 0.5, 0.1)
+    *_, inlier_weight = linearize(points, directions, weights, field, np.zeros(3), 0.2, 0.5, 0.1)
 
-    assert support == 0.0
+    assert inlier_weight == 0.0
 
 
 @settings(deadline=None, max_examples=20)

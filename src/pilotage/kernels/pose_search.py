@@ -84,8 +84,8 @@ def search_poses(
     turn_step, stride
         Steps between headings, and between places in cells of the field.
     prior_weight, robust_scale
-        A pose scores the share of points near their segments, less prior_weight * log(1 + m^2 / robust_scale) for m
-        standard deviations from it.
+        A pose scores the share of points near their segments, less
+        prior_weight * log(1 + m^2 / robust_scale) at m standard deviations from the prior.
     """
     step = stride * field.cell
     half, half_turns = math.ceil(window[0] / step), math.ceil(window[1] / turn_step)

@@ -19,7 +19,7 @@ from pilotage.perception.scan import LaserScan
 from pilotage.shape import EndCause, PartialShape
 
 MAX_GRAZING = math.radians(20.0)
-"""A line is "nearly collinear" with the line of sight below this angle: beams 1 degree apart are 1 m deep at 20 m."""
+"""[rad] "Nearly collinear" with the line of sight: beams 1 degree apart are 1 m deep at 20 m."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""From scans and odometry to the robot's motion and a local map of the last metres (Wolter 2001, section 3.3).
+"""From scans and odometry to the robot's motion and a local map of the last metres (Wolter 2001, 3.3).
 
 This is the robot's side only: no drawing is known here.
 

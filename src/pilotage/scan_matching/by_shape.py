@@ -1,7 +1,8 @@
 """Find the robot's pose by shape alone, as the paper does (Wolter 2001, sections 3.2 and 3.3, steps 2 and 3).
 
-Each perceived shape is matched with the shapes of the map near it. Each match induces a pose of the robot, and
-their mean is taken. This is `Method.SHAPES`, an option: a pose from point to segment is more exact and faster
+Each perceived shape is matched with the shapes of the map near it. Each match induces a pose of the robot,
+and their mean is taken. This is `Method.SHAPES`, an option: a pose from point to segment is more exact and
+faster
 (decision 0006).
 """
 

@@ -33,7 +33,7 @@ OVERHANG = 0.1
 """[m] A point may lie this far past the end of its segment."""
 
 ROBUST_SCALE = 4.0
-"""Squared Mahalanobis distance from the prior at which it loses half its hold: odometry is right or grossly wrong."""
+"""Squared Mahalanobis distance at which the prior loses half its hold: odometry is right or grossly wrong."""
 
 PRIOR_WEIGHT = 0.03
 """Share of inliers that outweighs one unit of log(1 + squared distance / ROBUST_SCALE)."""
@@ -102,7 +102,7 @@ def take_samples(shapes: tuple[PartialShape, ...]) -> Samples:
 
 
 def find_best_fit(samples: Samples, local_map: LocalMap, prior: MotionPrior) -> Fit:
-    """Refine the prior's pose and those found around it; take the one with most inliers, least against odometry.
+    """Refine the prior's pose and those found around it; take the one with most inliers, near odometry.
 
     If none has enough inliers, search as far as the robot can have gone.
     """
