@@ -2,7 +2,7 @@ import pytest
 
 from pilotage.geometry import Polyline
 from pilotage.maps import DecompositionSettings, SchematicMap, decompose
-from pilotage.maps.enclosure import EnclosureSettings
+from pilotage.maps.cells.enclosure import EnclosureSettings
 
 
 def decomposed(*strokes):

@@ -3,8 +3,8 @@ import pytest
 
 from pilotage.geometry import Polyline
 from pilotage.maps import DecompositionSettings, MergeSettings, SchematicMap, decompose
-from pilotage.maps.jambs import find_jambs
-from pilotage.maps.tessellation import tessellate
+from pilotage.maps.cells.jambs import find_jambs
+from pilotage.maps.cells.tessellation import tessellate
 
 
 def count_cells(*strokes, settings=None):

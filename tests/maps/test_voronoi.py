@@ -4,8 +4,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pilotage.maps.narrowings import find_chords
-from pilotage.maps.voronoi import are_planar, find_voronoi, snap
+from pilotage.maps.cells.narrowings import find_chords
+from pilotage.maps.cells.voronoi import are_planar, find_voronoi, snap
 
 FRAME = [(-20, -20, 20, -20), (20, -20, 20, 20), (20, 20, -20, 20), (-20, 20, -20, -20)]
 numbers = st.floats(-10.0, 10.0).map(lambda value: round(value, 2))

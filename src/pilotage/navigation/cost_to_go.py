@@ -14,7 +14,7 @@ from pilotage.geometry import Array
 from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
 from pilotage.maps import Atlas, Roads
 from pilotage.maps.range_table import RangeTable
-from pilotage.maps.route import Point
+from pilotage.maps.routing.route import Point
 
 
 @dataclass(frozen=True, eq=False)

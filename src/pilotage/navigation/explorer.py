@@ -8,7 +8,7 @@ from pilotage.geometry import Array
 from pilotage.localization import Hypothesis
 from pilotage.localization.belief import Belief
 from pilotage.maps import Atlas, Roads
-from pilotage.maps.route import Point
+from pilotage.maps.routing.route import Point
 from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.surroundings import Reach

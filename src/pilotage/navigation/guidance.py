@@ -9,7 +9,7 @@ import shapely
 from pilotage.geometry import Array
 from pilotage.localization.placement import Placement
 from pilotage.maps import CellGraph, Gateway, Roads, Route
-from pilotage.maps.route import Point
+from pilotage.maps.routing.route import Point
 
 PASSED = 0.4
 """A bend of the way is passed once the robot is so near [m]."""

@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.voronoi import VoronoiDiagram, feet
+from pilotage.maps.cells.voronoi import VoronoiDiagram, feet
 
 SLACK = 1e-3
 """By what share of its width a chord may miss its Voronoi edge, or the end of a wall: ties on the grid."""

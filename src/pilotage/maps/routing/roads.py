@@ -9,9 +9,9 @@ import rustworkx
 import shapely
 
 from pilotage.geometry import Array
-from pilotage.maps.cells import CellGraph, Gateway
-from pilotage.maps.route import Point, Route, RouteError, RouteSettings
-from pilotage.maps.walking import find_sights, jutting_corners, room_of
+from pilotage.maps.cells.graph import CellGraph, Gateway
+from pilotage.maps.routing.route import Point, Route, RouteError, RouteSettings
+from pilotage.maps.routing.walking import find_sights, jutting_corners, room_of
 
 
 def find_route(

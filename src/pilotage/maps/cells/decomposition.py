@@ -7,13 +7,13 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.cells import Cell, CellGraph, CellSize, Gateway
-from pilotage.maps.enclosure import EnclosureSettings, drop_outdoors
+from pilotage.maps.cells.enclosure import EnclosureSettings, drop_outdoors
+from pilotage.maps.cells.free_space import FreeSpaceSettings, free_space
+from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
+from pilotage.maps.cells.merging import MergeSettings, drop_small, merge_pieces
+from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.extent import diameter_of
-from pilotage.maps.free_space import FreeSpaceSettings, free_space
-from pilotage.maps.merging import MergeSettings, drop_small, merge_pieces
 from pilotage.maps.schematic import Label, SchematicMap
-from pilotage.maps.tessellation import Tessellation
 
 
 @dataclass(frozen=True, slots=True)

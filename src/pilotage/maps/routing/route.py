@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, frozen_points
-from pilotage.maps.cells import CellSize
+from pilotage.maps.cells.graph import CellSize
 
 Point = tuple[float, float]
 

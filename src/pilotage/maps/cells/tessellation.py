@@ -8,9 +8,9 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.jambs import find_jambs
-from pilotage.maps.narrowings import find_chords
-from pilotage.maps.voronoi import GRID_STEPS, find_voronoi
+from pilotage.maps.cells.jambs import find_jambs
+from pilotage.maps.cells.narrowings import find_chords
+from pilotage.maps.cells.voronoi import GRID_STEPS, find_voronoi
 
 STEPS_A_NODE = 4.0
 """How much coarser than the grid of the Voronoi diagram that of the pieces is: its rounding goes away."""

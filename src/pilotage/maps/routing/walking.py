@@ -5,7 +5,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.cells import Cell
+from pilotage.maps.cells.graph import Cell
 
 GRAZE = 2e-3
 """By what share of its size a cell is widened before sight is tested: ways may touch corners and gateways."""

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline, segments_of
+from pilotage.maps.cells.tessellation import Tessellation, tessellate
 from pilotage.maps.extent import diameter_of
 from pilotage.maps.schematic import SchematicMap
-from pilotage.maps.tessellation import Tessellation, tessellate
 from pilotage.shape.simplify import Simplification, simplify_all
 
 FRAME = 0.5

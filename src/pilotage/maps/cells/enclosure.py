@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.maps.free_space import FreeSpace
+from pilotage.maps.cells.free_space import FreeSpace
 
 
 @dataclass(frozen=True, slots=True)

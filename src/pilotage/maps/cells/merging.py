@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.tessellation import Tessellation
+from pilotage.maps.cells.tessellation import Tessellation
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,1 @@
+"""Divide a drawing into cells: free space, its narrowings, the pieces between them (Wolter 2001, 4.1)."""
