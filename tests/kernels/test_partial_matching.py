@@ -5,8 +5,7 @@ from hypothesis import strategies as st
 
 import oracles
 import strategies
-from pilotage.kernels.chains import Chain, Prices
-from pilotage.kernels.partial_matching import match_at_poses
+from pilotage.kernels.partial_matching import Chain, Prices, match_at_poses
 
 near = st.floats(-0.3, 0.3)
 poses_near_identity = st.tuples(near, near, near)

@@ -1,8 +1,5 @@
-import pytest
-
 from pilotage.geometry import Polyline
 from pilotage.maps import DecompositionSettings, SchematicMap, decompose
-from pilotage.maps.cells.enclosure import EnclosureSettings
 
 
 def decomposed(*strokes):
@@ -50,9 +47,3 @@ def test_a_room_at_the_outer_wall_needs_no_door():
     graph = decomposed(HALL, [(30, 0), (30, 20)])
 
     assert holds(graph, (35.0, 10.0))
-
-
-@pytest.mark.parametrize("name", ["yard_mouth", "yard_share", "block_outside"])
-def test_settings_refuse_what_cannot_be_meant(name):
-    with pytest.raises(ValueError, match=name):
-        EnclosureSettings(**{name: -1.0})

@@ -3,12 +3,12 @@ import pytest
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.maps import FreeSpaceSettings, NotEnclosedError, SchematicMap, free_space
+from pilotage.maps import DecompositionSettings, NotEnclosedError, SchematicMap, free_space
 
 ROOM = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
 
 
-def found(*strokes, settings=FreeSpaceSettings(), contours=False):  # noqa: B008  # frozen
+def found(*strokes, settings=DecompositionSettings(), contours=False):  # noqa: B008  # frozen
     sketch = SchematicMap(
         tuple(Polyline.through(stroke, closed=contours) for stroke in strokes), contours=contours
     )
@@ -69,7 +69,7 @@ def test_nothing_is_outside_of_contours():
     assert np.array_equal([True], space.inside)
 
 
-@pytest.mark.parametrize("name", ["detail", "gap", "blob", "outer_opening"])
+@pytest.mark.parametrize("name", ["detail", "gap", "outer_opening", "min_cell_area"])
 def test_settings_refuse_what_cannot_be_meant(name):
     with pytest.raises(ValueError, match=name):
-        FreeSpaceSettings(**{name: -1.0})
+        DecompositionSettings(**{name: -1.0})

@@ -2,15 +2,14 @@ import numpy as np
 import pytest
 
 from pilotage.geometry import Polyline
-from pilotage.maps import DecompositionSettings, MergeSettings, SchematicMap, decompose
-from pilotage.maps.cells.jambs import find_jambs
+from pilotage.maps import DecompositionSettings, SchematicMap, decompose
+from pilotage.maps.cells.narrowings import find_jambs
 from pilotage.maps.cells.tessellation import tessellate
 
 
 def count_cells(*strokes, settings=None):
     sketch = SchematicMap(tuple(Polyline.through(stroke) for stroke in strokes))
-    merging = MergeSettings() if settings is None else settings
-    return len(decompose(sketch, DecompositionSettings(merging=merging)).cells)
+    return len(decompose(sketch, settings or DecompositionSettings()).cells)
 
 
 def test_a_row_of_columns_is_one_wide_opening():
@@ -49,7 +48,7 @@ def test_cells_below_the_least_area_are_merged():
     suite = [(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)], [(0, 2), (1.2, 2), (1.2, 1.2)]
 
     assert 2 == count_cells(*suite)
-    assert 1 == count_cells(*suite, settings=MergeSettings(least_area=0.05))
+    assert 1 == count_cells(*suite, settings=DecompositionSettings(min_cell_area=0.05))
 
 
 def test_jambs_tell_a_door_from_the_cut_of_a_corridor():
@@ -74,9 +73,3 @@ def test_pieces_cover_what_walls_enclose_and_openings_lie_between_them():
     left, right = (tessellation.pieces[side].centroid for side in tessellation.sides[0])
     along = tessellation.chords[0, 1] - tessellation.chords[0, 0]
     assert along[0] * (left.y - right.y) - along[1] * (left.x - right.x) > 0.0
-
-
-@pytest.mark.parametrize("name", MergeSettings.__slots__)
-def test_settings_refuse_what_cannot_be_meant(name):
-    with pytest.raises(ValueError, match=name):
-        MergeSettings(**{name: 0.0})

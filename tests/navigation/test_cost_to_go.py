@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from buildings import coarse, flat
 from pilotage.geometry import Polyline
 from pilotage.localization.belief import Belief
-from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
+from pilotage.maps import Roadmap, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.cost_to_go import cost_to_go
 
 COARSE = coarse(100, 120)
@@ -26,7 +26,7 @@ CORRIDOR = SchematicMap((Polyline.through([(0, 0), (30, 0), (30, 2), (0, 2)], cl
 
 def left_in(sketch, goal, closed=()):
     atlas = build_atlas(sketch, COARSE)
-    roads = Roads(atlas.cell_graph, RouteSettings())
+    roads = Roadmap(atlas.cell_graph, RouteSettings())
     return atlas, roads, cost_to_go(atlas, roads, goal, closed)
 
 

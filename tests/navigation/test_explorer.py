@@ -8,7 +8,7 @@ import pytest
 from buildings import coarse, scan_at
 from pilotage.geometry import Polyline, Pose2
 from pilotage.localization.belief import Belief
-from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
+from pilotage.maps import Roadmap, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.explorer import Explorer
 from pilotage.navigation.exploring import ExploringSettings
 from pilotage.navigation.surroundings import Surroundings, SurroundingsSettings
@@ -33,7 +33,7 @@ TRAIL = np.zeros((1, 2))
 @pytest.fixture
 def explorer():
     atlas = build_atlas(HALLS, COARSE)
-    roads = Roads(atlas.cell_graph, RouteSettings())
+    roads = Roadmap(atlas.cell_graph, RouteSettings())
     return Explorer(atlas, roads, (25.0, 0.0), ExploringSettings())
 
 

@@ -12,7 +12,7 @@ from buildings import coarse, flat, scan_at
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.localization import Hypothesis
 from pilotage.localization.belief import Belief
-from pilotage.maps import Roads, RouteSettings, SchematicMap, build_atlas
+from pilotage.maps import Roadmap, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import (
     ExploringSettings,
@@ -184,7 +184,7 @@ def test_of_two_open_ends_the_robot_chooses_the_one_that_tells_places_apart(side
 def test_of_two_open_ends_the_robot_chooses_the_one_that_most_hypotheses_find_nearer_to_the_goal(side):
     drawn = Polyline.through([(-30, -1), (30, -1), (30, 1), (-30, 1)], closed=True)
     atlas = build_atlas(SchematicMap((drawn,)), COARSE)
-    left = cost_to_go(atlas, Roads(atlas.cell_graph, RouteSettings()), (side * 25.0, 0.0))
+    left = cost_to_go(atlas, Roadmap(atlas.cell_graph, RouteSettings()), (side * 25.0, 0.0))
     across = math.pi / 2.0
     reach = reach_in(CORRIDOR, Pose2(0.0, 0.0, across), **ALL_AROUND)
     states = np.array([(x, 0.0, across, 0.0, 0.0, 0.0) for x in (-10.0, 0.0, 10.0)]).T

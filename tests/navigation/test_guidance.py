@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from buildings import flat
 from pilotage.geometry import Polyline
 from pilotage.localization.placement import Placement
-from pilotage.maps import DecompositionSettings, Roads, RouteError, RouteSettings, SchematicMap, decompose
+from pilotage.maps import DecompositionSettings, Roadmap, RouteError, RouteSettings, SchematicMap, decompose
 from pilotage.navigation.guidance import inside, lead
 from strategies import angles, scales
 
@@ -42,7 +42,7 @@ def decomposed(strokes, scale=1.0):
 
 
 def led(placement, graph, goal, closed=()):
-    return lead(placement, Roads(graph, RouteSettings()), goal, closed)
+    return lead(placement, Roadmap(graph, RouteSettings()), goal, closed)
 
 
 ROOMS, RING, FLAT = decomposed(SUITE), decomposed(QUARTERS), decompose(flat(), DecompositionSettings())

@@ -14,7 +14,7 @@ from pilotage.errors import FileError
 
 if TYPE_CHECKING:
     from pilotage.figures.recording import Recording
-    from pilotage.maps.routing.route import Point
+    from pilotage.maps.routing.roadmap import Point
     from pilotage.worlds import PackedWorld
 
 MARK = ".pilotage-demo"

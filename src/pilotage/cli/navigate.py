@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.geometry import Pose2
     from pilotage.maps import SchematicMap
-    from pilotage.maps.routing.route import Point
+    from pilotage.maps.routing.roadmap import Point
 
 
 def navigate(

@@ -8,7 +8,7 @@ import typer
 if TYPE_CHECKING:
     from pilotage.geometry import Pose2
     from pilotage.maps import CellGraph, SchematicMap
-    from pilotage.maps.routing.route import Point
+    from pilotage.maps.routing.roadmap import Point
 
 
 def find_place(words: str, sketch: "SchematicMap", graph: "CellGraph") -> "Point":

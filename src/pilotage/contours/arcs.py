@@ -32,7 +32,7 @@ class Arc:
 
 
 def find_arcs(polyline: Polyline) -> tuple[Arc, ...]:
-    """Cut a polyline into maximal convex and concave arcs.
+    """Cut a polyline into maximal convex and concave arcs (section 3).
 
     The stretch between two opposite turns is cut at its middle, so that the arcs partition the polyline. On a
     closed polyline the first arc starts at the first cut; one without a cut is a single arc from vertex 0.
@@ -42,7 +42,7 @@ def find_arcs(polyline: Polyline) -> tuple[Arc, ...]:
     [('CONVEX', 0, 2), ('CONCAVE', 1, 4), ('CONVEX', 3, 5)]
     """
     turn = turns(polyline)
-    cuts = _cuts(polyline, turn)
+    cuts = _cuts(polyline, turn)  # section 3: maximal arcs
     return tuple(_arc(turn, first, last) for first, last in pairwise(cuts))
 
 

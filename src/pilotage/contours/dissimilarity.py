@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from pilotage import kernels
 from pilotage.contours.sequence import ArcSequence
 from pilotage.contours.tangent import TangentFunction
 from pilotage.geometry import Polyline
@@ -32,7 +33,7 @@ class Comparison:
     largest_run: int = 7  # segments that may answer to a single one; a notch in a wall makes 5 of 1
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
+        """Reject invalid settings."""
         if self.largest_group < 1 or self.largest_group % 2 == 0:
             raise ValueError(f"largest_group must be odd and positive, got {self.largest_group}")
         if self.largest_run < 1:
@@ -40,7 +41,7 @@ class Comparison:
 
     def length(self, tangent: TangentFunction) -> float:
         """Tell what length a contour counts with."""
-        return 1.0 if self.lengths is Lengths.RELATIVE else tangent.length
+        return 1.0 if self.lengths is Lengths.RELATIVE else tangent.length  # section 3.4: scale normalized
 
 
 def dissimilarity(a: Polyline, b: Polyline, settings: Comparison) -> float:
@@ -61,11 +62,10 @@ def dissimilarity(a: Polyline, b: Polyline, settings: Comparison) -> float:
 
 def sequence_dissimilarity(a: ArcSequence, b: ArcSequence, settings: Comparison) -> float:
     """Compare as `dissimilarity` does what is compared with many others."""
-    from pilotage.kernels.arc_correspondence import closed_dissimilarity, open_dissimilarity
-
     if a.closed != b.closed:
         raise ValueError(f"contours must be both closed or both open, got {a.closed} and {b.closed}")
-    compare = closed_dissimilarity if a.closed else open_dissimilarity
+    arcs = kernels.arc_correspondence
+    compare = arcs.closed_dissimilarity if a.closed else arcs.open_dissimilarity
     return float(
         compare(
             a.steps(settings.length(a.tangent)),
@@ -85,13 +85,11 @@ def arc_dissimilarity(c: Polyline, d: Polyline, settings: Comparison) -> float:
     >>> round(arc_dissimilarity(corner, straight, Comparison(Measure.TANGENT)), 4)  # (pi / 4)**2
     0.6169
     """
-    from pilotage.kernels.arc_correspondence import stretch_dissimilarity
-
     if c.closed or d.closed:
         raise ValueError(f"arcs must be open, got closed {c.closed} and {d.closed}")
     c_tangent, d_tangent = TangentFunction.of(c), TangentFunction.of(d)
     return float(
-        stretch_dissimilarity(
+        kernels.arc_correspondence.stretch_dissimilarity(
             c_tangent.steps(settings.length(c_tangent)),
             0,
             len(c_tangent.directions),

@@ -6,19 +6,23 @@ match_partial_near(seen, known, known_from_seen, settings) -> matches, best firs
     Where an estimate of the pose puts them: the displacement error of section 3.2 counts.
 
 Vertices may be dropped at any end of either. To drop all but one pair of segments would always be cheapest,
-and so length matched is rewarded (decision 0004).
+so matched length is rewarded (decision 0004). The product does not use this by default: see
+docs/theory/paper.md.
 """
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array, Pose2, Span
-from pilotage.kernels.chains import Chain, Prices
-from pilotage.shape.partial import PartialShape
+from pilotage.shape import PartialShape
+
+if TYPE_CHECKING:
+    from pilotage.kernels.partial_matching import Chain
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +36,7 @@ class Matching:
     count: int = 5  # matches returned at most
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
+        """Reject invalid settings."""
         for name in ("displacement_weight", "min_length"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
@@ -55,7 +59,7 @@ class PartialMatch:
 
 
 def match_partial(seen: PartialShape, known: PartialShape, settings: Matching) -> tuple[PartialMatch, ...]:
-    """Match wherever the two may lie: each segment seen is laid on each known, at either end of theirs.
+    """Match wherever the two may lie (3.1): each segment seen is laid on each known, at either end of theirs.
 
     A corner in the scan and a corner of the map, of which the scan shows one wall in part:
 
@@ -92,7 +96,7 @@ def match_partial_near(
 class _Side(NamedTuple):
     """One of the two polylines, laid out for the kernel, repeated vertices left out."""
 
-    chain: Chain
+    chain: "Chain"
     vertices: NDArray[np.intp]  # which of the polyline each of the chain is; counts on around closed ones
     size: int  # vertices of the polyline
 
@@ -104,7 +108,7 @@ class _Side(NamedTuple):
         steps = np.diff(points, axis=0)
         lengths = np.hypot(steps[:, 0], steps[:, 1])
         kept = np.concatenate([[True], lengths > 0.0])
-        chain = Chain(
+        chain = kernels.partial_matching.Chain(
             points[kept],
             lengths[kept[1:]],
             np.arctan2(steps[:, 1], steps[:, 0])[kept[1:]],
@@ -146,10 +150,10 @@ def _turned(points: Array, theta: Array) -> Array:
 
 def _match(seen: _Side, known: _Side, poses: Array, settings: Matching) -> tuple[PartialMatch, ...]:
     """Collect what is best at each pose (h, 3), each match once."""
-    from pilotage.kernels.partial_matching import match_at_poses
-
-    prices = Prices(settings.displacement_weight, settings.reward, settings.largest_run)
-    found = match_at_poses(seen.chain, known.chain, poses, prices)
+    prices = kernels.partial_matching.Prices(
+        settings.displacement_weight, settings.reward, settings.largest_run
+    )
+    found = kernels.partial_matching.match_at_poses(seen.chain, known.chain, poses, prices)
     matches: list[PartialMatch] = []
     collected: set[bytes] = set()
     for h in np.argsort(found.costs, kind="stable"):
@@ -183,7 +187,7 @@ def _cut_and_fit(
 
 
 def _fit(seen: Array, known: Array) -> Pose2:
-    """Lay points on points in the sense of least squares (Lu and Milios 1994), (k, 2) each."""
+    """Lay points on points by least squares (section 3.2, Lu and Milios 1994), (k, 2) each."""
     p, q = seen - seen.mean(axis=0), known - known.mean(axis=0)
     theta = math.atan2(float((p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum()), float((p * q).sum()))
     turned = Pose2(0.0, 0.0, theta) @ seen

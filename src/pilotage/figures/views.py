@@ -18,7 +18,7 @@ from pilotage.figures.recording import Recording
 from pilotage.figures.trail import Stretch, find_stretches
 from pilotage.geometry import Array
 from pilotage.localization import Status
-from pilotage.maps import Roads, RouteError, RouteSettings
+from pilotage.maps import Roadmap, RouteError, RouteSettings
 from pilotage.navigation import Step
 
 ROBOT = 0.032
@@ -32,7 +32,7 @@ class BelievedView:
 
     def __init__(self, axes: Axes, drive: Recording) -> None:
         self.drive, self.size = drive, drive.sketch.diagonal
-        self.roads = Roads(drive.graph, RouteSettings()) if drive.graph is not None else None
+        self.roads = Roadmap(drive.graph, RouteSettings()) if drive.graph is not None else None
         positions = np.array([step.estimate.sketch_from_base.pose.position for step in drive.steps])
         found = find_stretches(drive.steps, positions, JUMP * self.size)
         self.stretches = [one for one in found if one.located]
@@ -69,7 +69,7 @@ class BelievedView:
         opacities = [FAINTEST + (1.0 - FAINTEST) * share for share in shares]
         self.robots.set_facecolor([to_rgba(style.ACCENT, opacity) for opacity in opacities])
 
-    def show_plan(self, step: Step, roads: Roads) -> None:
+    def show_plan(self, step: Step, roads: Roadmap) -> None:
         """Draw the cell, the gateway that is next, and the route."""
         graph = roads.graph
         self.cell.set_path(outline_of(graph.cell(step.estimate.cell_id)))
@@ -130,7 +130,7 @@ def show_way(lines: LineCollection, stretches: Sequence[Stretch], k: int) -> Non
     lines.set_color([one.color for one in gone])
 
 
-def route_ahead(step: Step, roads: Roads, goal: tuple[float, float]) -> Array:
+def route_ahead(step: Step, roads: Roadmap, goal: tuple[float, float]) -> Array:
     """Return the way from where the robot believes to be to its goal, (n, 2); empty if there is none."""
     pose = step.estimate.sketch_from_base.pose
     try:

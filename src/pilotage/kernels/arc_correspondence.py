@@ -80,7 +80,7 @@ def cheapest_sequence(
     bound: float,
     best: NDArray[np.float64],
 ) -> float:
-    """Sum up the cheapest sequence of groups that uses up all arcs, of c from i0 on and of d from j0 on.
+    """Sum up the cheapest sequence of groups that uses up all arcs, of c from i0 and of d from j0 on.
 
     Sums that are not below `bound` are not followed. `best` (k + 1, m + 1) is room to work in.
     """
@@ -93,7 +93,7 @@ def cheapest_sequence(
             if so_far < bound:
                 for g in range(len(sizes)):
                     i1, j1 = i + sizes[g, 0], j + sizes[g, 1]
-                    if i1 <= k and j1 <= m:
+                    if i1 <= k and j1 <= m:  # section 3: order-keeping correspondence of arcs
                         best[i1, j1] = min(best[i1, j1], so_far + costs[g, first_c, first_d])
     return float(best[k, m])
 

@@ -1,7 +1,7 @@
 """Match parts of two open polylines, their ends free (Wolter 2001, sections 3.1 and 3.2).
 
-At a given pose of one polyline on the other, one dynamic programme over vertex pairs finds the cheapest match
-of all. A match is a path of vertex pairs, and a step of it one segment against one, or against a run of them.
+At a given pose of one polyline on the other, dynamic programming over vertex pairs finds the cheapest match
+of all. A match is a path of vertex pairs; each step of it pairs one segment with one, or with a run of them.
 """
 
 import math
@@ -10,11 +10,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.kernels.chains import Chain, Prices
 from pilotage.kernels.compiling import njit
 from pilotage.kernels.tangent import length_factor
 
 START = -1  # no vertex before: here a match starts
+
+
+class Chain(NamedTuple):
+    """An open polyline; an end that goes on lies somewhere inside a longer segment."""
+
+    vertices: NDArray[np.float64]  # (n + 1, 2)
+    lengths: NDArray[np.float64]  # (n,) positive
+    directions: NDArray[np.float64]  # (n,) [rad]
+    first_goes_on: bool
+    last_goes_on: bool
+
+
+class Prices(NamedTuple):
+    """What a match costs and earns, beside eq. (2)."""
+
+    displacement: float  # alpha [rad²/m²] a metre of match and squared metre of displacement
+    reward: float  # lambda [rad²] a metre of match
+    largest_run: int  # segments that may answer to a single one
 
 
 class Matches(NamedTuple):
@@ -35,7 +52,7 @@ def squared_turn(angle: float) -> float:
 
 @njit(cache=True)
 def squared_distances(seen: Chain, known: Chain, pose: tuple[float, float, float]) -> NDArray[np.float64]:
-    """Measure how far each vertex seen, carried by a pose, is from each known: |Delta T|², (n + 1, m + 1)."""
+    """Measure how far each vertex seen, carried by a pose, is from each known: |d-T|², (n + 1, m + 1)."""
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     squares = np.empty((len(seen.vertices), len(known.vertices)))
@@ -52,20 +69,22 @@ def squared_distances(seen: Chain, known: Chain, pose: tuple[float, float, float
 def step_cost(
     square: float, seen_length: float, known_length: float, displacement: float, prices: Prices
 ) -> float:
-    """Price a step of a match: S + alpha |Delta T|² - lambda, each for the length matched [rad² m].
+    """Price a step of a match: S + E - lambda, each for the length matched [rad² m].
 
-    `square` is the mean squared difference of directions [rad²], `displacement` is |Delta T|² [m²].
+    `square` is the mean squared difference of directions [rad²], `displacement` is |d-T|² [m²]. d-T is here
+    the distance of paired vertices; in the paper it is the distance of two poses (decision 0004).
     """
     dissimilarity = square * length_factor(seen_length, known_length)  # eq. (2) at the given rotation
+    displacement_error = prices.displacement * displacement  # section 3.2: E(d-omega, d-T) = alpha |d-T|²
     shared = min(seen_length, known_length)
-    return dissimilarity + shared * (prices.displacement * displacement - prices.reward)
+    return dissimilarity + shared * (displacement_error - prices.reward)
 
 
 @njit(cache=True)
 def cheapest_match(
     seen: Chain, known: Chain, pose: tuple[float, float, float], prices: Prices, path: NDArray[np.int64]
 ) -> tuple[float, int, bool, bool]:
-    """Find the cheapest match with seen carried onto known by a pose (x, y, theta).
+    """Find the cheapest match with seen carried onto known by a pose (x, y, theta) (section 3.1).
 
     It may start and end at any pair of vertices. Where an end of one polyline goes on unseen, a longer
     segment of the other may be cut to the length of the end segment, and the ends there may lie apart.

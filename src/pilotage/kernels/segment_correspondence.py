@@ -30,7 +30,7 @@ def segment_dissimilarity(
         p = c_first + i
         for j in range(m):
             q = d_first + j
-            if best[i, j] == np.inf:
+            if best[i, j] == np.inf:  # section 3: order-keeping correspondence of segments
                 continue
             c_length, square = 0.0, 0.0
             d_length = d.stops[q + 1] - d.stops[q]
@@ -64,4 +64,4 @@ def combined_dissimilarity(
     middle = median(c, c_first, c_last, d, d_first, d_last)
     at_mean = segment_dissimilarity(c, c_first, c_last, d, d_first, d_last, mean, largest_run)
     at_median = segment_dissimilarity(c, c_first, c_last, d, d_first, d_last, middle, largest_run)
-    return min(simple, at_mean, at_median)
+    return min(simple, at_mean, at_median)  # section 3: the minimum with eq. (2)

@@ -1,14 +1,12 @@
 """From the drawing to places (Wolter 2001, sections 2.2 and 4.1)."""
 
 from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
-from pilotage.maps.cells.decomposition import DecompositionSettings, decompose
-from pilotage.maps.cells.free_space import FreeSpace, FreeSpaceSettings, NotEnclosedError, free_space
+from pilotage.maps.cells.decomposition import decompose
+from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, NotEnclosedError, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway, Neighbor
-from pilotage.maps.cells.merging import MergeSettings
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.routing.places import check_place, check_reachable, find_labeled
-from pilotage.maps.routing.roads import Roads, find_route
-from pilotage.maps.routing.route import Route, RouteError, RouteSettings
+from pilotage.maps.routing.roadmap import Roadmap, Route, RouteError, RouteSettings, find_route
 from pilotage.maps.schematic import Label, SchematicMap
 
 __all__ = [
@@ -19,15 +17,13 @@ __all__ = [
     "CellSize",
     "DecompositionSettings",
     "FreeSpace",
-    "FreeSpaceSettings",
     "Gateway",
     "Label",
-    "MergeSettings",
     "Neighbor",
     "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",
-    "Roads",
+    "Roadmap",
     "Route",
     "RouteError",
     "RouteSettings",

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Polyline
-from pilotage.maps.cells.decomposition import DecompositionSettings, decompose
-from pilotage.maps.cells.free_space import NotEnclosedError
+from pilotage.maps.cells.decomposition import decompose
+from pilotage.maps.cells.free_space import DecompositionSettings, NotEnclosedError
 from pilotage.maps.cells.graph import CellGraph
 from pilotage.maps.range_table import RangeTable, RangeTableSettings, build_range_table
 from pilotage.maps.schematic import SchematicMap

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from pilotage.geometry import Array, Polyline, segments_of
 
@@ -30,7 +31,7 @@ class SchematicMap:
     )
 
     def __post_init__(self) -> None:
-        """Refuse a drawing without a stroke."""
+        """Reject a drawing without a stroke."""
         if not self.strokes:
             raise ValueError("a drawing needs at least one stroke, got none")
 
@@ -43,7 +44,7 @@ class SchematicMap:
 
     @property
     def diagonal(self) -> float:
-        """Length of the diagonal of the bounds: the drawing's own yardstick [drawing units]."""
+        """Length of the diagonal of the bounds: the drawing's own unit of size [drawing units]."""
         left, bottom, right, top = self.bounds
         return float(np.hypot(right - left, top - bottom))
 
@@ -62,3 +63,16 @@ class SchematicMap:
     def sketch_from_file(self, points: Array) -> Array:
         """Carry points (n, 2) from the axes of the source file to the sketch (y up)."""
         return self.file_from_sketch(points)  # a flip is its own inverse
+
+
+def diameter_of(points: Array) -> float:
+    """Measure between the two points (n, 2) that are farthest apart.
+
+    That of a rectangle is its diagonal; unlike the bounds' it does not change when the drawing is turned.
+
+    >>> diameter_of(np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0], [0.0, 4.0]]))
+    5.0
+    """
+    corners = shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points)))
+    gaps = corners[:, None] - corners[None]
+    return float(np.hypot(gaps[..., 0], gaps[..., 1]).max())

@@ -12,9 +12,9 @@ import numpy as np
 
 from pilotage.geometry import Array
 from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
-from pilotage.maps import Atlas, Roads
+from pilotage.maps import Atlas, Roadmap
 from pilotage.maps.range_table import RangeTable
-from pilotage.maps.routing.route import Point
+from pilotage.maps.routing.roadmap import Point
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class CostToGo:
         return np.asarray(saved / states.shape[1])
 
 
-def cost_to_go(atlas: Atlas, roads: Roads, goal: Point, closed: Collection[str] = ()) -> CostToGo:
+def cost_to_go(atlas: Atlas, roads: Roadmap, goal: Point, closed: Collection[str] = ()) -> CostToGo:
     """Find what is left of the way from everywhere to a goal of the sketch, not through `closed` gateways.
 
     From each place of a cell the way leads straight to an exit in sight: a gateway, a corner, the goal. Where

@@ -7,8 +7,8 @@ import numpy as np
 from pilotage.geometry import Array
 from pilotage.localization import Hypothesis
 from pilotage.localization.belief import Belief
-from pilotage.maps import Atlas, Roads
-from pilotage.maps.routing.route import Point
+from pilotage.maps import Atlas, Roadmap
+from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.cost_to_go import cost_to_go
 from pilotage.navigation.exploring import ExploringSettings, choose_rim, farthest
 from pilotage.navigation.surroundings import Reach
@@ -26,7 +26,7 @@ DONE = 0.5
 class Explorer:
     """Chooses where to drive while the place is not known; `goal` is a point of the sketch (y up)."""
 
-    def __init__(self, atlas: Atlas, roads: Roads, goal: Point, settings: ExploringSettings) -> None:
+    def __init__(self, atlas: Atlas, roads: Roadmap, goal: Point, settings: ExploringSettings) -> None:
         self.atlas, self.roads, self.goal, self.settings = atlas, roads, goal, settings
         self._cost_to_go = cost_to_go(atlas, roads, goal)
         self._closed: tuple[str, ...] = ()  # gateways that this leaves out

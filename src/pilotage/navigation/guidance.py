@@ -8,8 +8,8 @@ import shapely
 
 from pilotage.geometry import Array
 from pilotage.localization.placement import Placement
-from pilotage.maps import CellGraph, Gateway, Roads, Route
-from pilotage.maps.routing.route import Point
+from pilotage.maps import CellGraph, Gateway, Roadmap, Route
+from pilotage.maps.routing.roadmap import Point
 
 PASSED = 0.4
 """A bend of the way is passed once the robot is so near [m]."""
@@ -39,7 +39,7 @@ class Leg:
         return self.route.cell_ids[1] if len(self.route.cell_ids) > 1 else ""
 
 
-def lead(placement: Placement, roads: Roads, goal: Point, closed: Collection[str] = ()) -> Leg:
+def lead(placement: Placement, roads: Roadmap, goal: Point, closed: Collection[str] = ()) -> Leg:
     """Find the next point to head for from where the robot is believed to be.
 
     Raises RouteError if no way leads to the goal through gateways that are not `closed`.

@@ -8,7 +8,7 @@ import numpy as np
 from pilotage.geometry import Array, Twist, wrap_angle
 from pilotage.localization import Estimate, Localizer, Status
 from pilotage.localization.placement import Placement
-from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
+from pilotage.maps import NotEnclosedError, Roadmap, RouteError, RouteSettings, check_place
 from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
 from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.explorer import Explorer
@@ -92,7 +92,7 @@ class Navigator:
         if localizer.atlas.cell_graph is None:
             raise NotEnclosedError("a drawing to drive by must enclose free space, this one has no cells")
         check_place(localizer.atlas.cell_graph, goal, "goal")
-        self.roads = Roads(localizer.atlas.cell_graph, self.settings.route)
+        self.roads = Roadmap(localizer.atlas.cell_graph, self.settings.route)
         self.surroundings = Surroundings.unseen(self.settings.surroundings)
         self.trail = np.zeros((1, 2))  # where the robot was, in odom [m]
         self._reckoning: Reckoning | None = None  # before the first scan

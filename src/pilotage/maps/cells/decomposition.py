@@ -1,30 +1,19 @@
 """Divide a drawing into cells (Wolter 2001, section 4.1)."""
 
-from dataclasses import dataclass, field
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.cells.enclosure import EnclosureSettings, drop_outdoors
-from pilotage.maps.cells.free_space import FreeSpaceSettings, free_space
+from pilotage.maps.cells.enclosure import drop_outdoors
+from pilotage.maps.cells.free_space import DecompositionSettings, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
-from pilotage.maps.cells.merging import MergeSettings, drop_small, merge_pieces
+from pilotage.maps.cells.merging import drop_small, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
-from pilotage.maps.extent import diameter_of
-from pilotage.maps.schematic import Label, SchematicMap
+from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
-
-@dataclass(frozen=True, slots=True)
-class DecompositionSettings:
-    """How free space is found and how it is divided."""
-
-    free_space: FreeSpaceSettings = field(default_factory=FreeSpaceSettings)
-    merging: MergeSettings = field(default_factory=MergeSettings)
-    enclosure: EnclosureSettings = field(default_factory=EnclosureSettings)
-    small: float = 0.7  # a cell is small if its outline is shorter than this share of the median outline
-    large: float = 1.4  # and large if it is longer than this
+SMALL, LARGE = 0.7, 1.4
+"""A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
 
 
 def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGraph:
@@ -32,14 +21,14 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
 
     Free space is cut wherever clearance has a minimum along its Voronoi diagram, or begins to widen; the
     pieces are merged across all openings that do not separate them. Cells do not overlap; what they leave
-    out is below the least area, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
+    out is too small, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
     """
-    space = free_space(sketch, settings.free_space)
-    regions = merge_pieces(space.tessellation, space.inside, settings.merging)
-    regions = drop_outdoors(space, regions, settings.enclosure)
-    regions = drop_small(space.tessellation, regions, settings.merging.least_area)
+    space = free_space(sketch, settings)
+    regions = merge_pieces(space.tessellation, space.inside, settings.min_cell_area)  # section 4.1: merging
+    regions = drop_outdoors(space, regions)
+    regions = drop_small(space.tessellation, regions, settings.min_cell_area)
     numbers, polygons = outlines(space.tessellation, regions)
-    cells = name_cells(polygons, sketch.labels, settings)
+    cells = name_cells(polygons, sketch.labels)
     id_of = dict(zip(numbers, (cell.cell_id for cell in cells), strict=True))
     points = np.vstack([stroke.vertices for stroke in sketch.strokes])
     return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), diameter_of(points))
@@ -61,9 +50,7 @@ def largest_part(shape: shapely.Geometry) -> shapely.Polygon:
     return max(shapely.get_parts(shape), key=lambda part: float(part.area))
 
 
-def name_cells(
-    polygons: list[shapely.Polygon], labels: tuple[Label, ...], settings: DecompositionSettings
-) -> tuple[Cell, ...]:
+def name_cells(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> tuple[Cell, ...]:
     """Give each cell its id, size and label."""
     lengths = [float(polygon.exterior.length) for polygon in polygons]
     median = float(np.median(lengths)) if lengths else 0.0
@@ -73,7 +60,7 @@ def name_cells(
         Cell(
             f"c{number + 1:0{digits}}",
             vertices_of(polygon.exterior),
-            size_of(lengths[number] / median, settings),
+            size_of(lengths[number] / median),
             ", ".join(words[number]),
             tuple(vertices_of(ring) for ring in polygon.interiors),
         )
@@ -98,11 +85,11 @@ def vertices_of(ring: shapely.LinearRing) -> Array:
     return np.asarray(shapely.get_coordinates(ring)[:-1])
 
 
-def size_of(share: float, settings: DecompositionSettings) -> CellSize:
+def size_of(share: float) -> CellSize:
     """Class a cell by its outline's length over the median (section 4.2)."""
-    if share < settings.small:
+    if share < SMALL:
         return CellSize.SMALL
-    return CellSize.LARGE if share > settings.large else CellSize.MEDIUM
+    return CellSize.LARGE if share > LARGE else CellSize.MEDIUM
 
 
 def find_gateways(

@@ -1,4 +1,4 @@
-"""Find free space in a drawing: what its walls enclose, small gaps mended, the outside left out."""
+"""Find free space in a drawing: what its walls enclose, small gaps closed (Wolter 2001, section 4.1)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline, segments_of
 from pilotage.maps.cells.tessellation import Tessellation, tessellate
-from pilotage.maps.extent import diameter_of
-from pilotage.maps.schematic import SchematicMap
+from pilotage.maps.schematic import SchematicMap, diameter_of
 from pilotage.shape.simplify import Simplification, simplify_all
 
 FRAME = 0.5
-"""How far around the drawing the outside is looked at, as a share of its diameter: beyond any pocket."""
+"""Margin of outside around the drawing, as a share of its diameter: wider than any pocket is deep."""
 
+BLOB = 0.01
+"""Smaller free-standing groups of strokes are dropped, as a share of the diameter: chairs, letters, blots."""
 
 NOTHING = "a drawing must enclose free space, this one encloses none: no closed room"
 
@@ -27,17 +28,17 @@ class NotEnclosedError(PilotageError, ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class FreeSpaceSettings:
-    """What counts as a detail, a gap, an opening of the building: all as shares of the drawing's diameter."""
+class DecompositionSettings:
+    """What is too small to matter in a drawing; lengths are shares of its diameter."""
 
-    detail: float = 0.0015  # least relevance of a corner [rad]: a step of 10 cm in a wall of a 50 m building
-    gap: float = 0.01  # openings narrower than this were meant to be closed: 50 cm in a 50 m building
-    blob: float = 0.01  # free-standing things smaller than this are dropped: chairs, letters, blots
-    outer_opening: float = 0.2  # the outside ends at openings narrower than this: open ends of corridors
+    detail: float = 0.0015  # minimum relevance of a corner [rad]: a step of 10 cm in a 50 m building
+    gap: float = 0.01  # narrower openings are closed: 50 cm in a 50 m building
+    outer_opening: float = 0.2  # narrower openings to the outside are closed: open ends of corridors
+    min_cell_area: float = 0.001  # a smaller cell is merged with a neighbor; share of all free space
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
-        for name in ("detail", "gap", "blob", "outer_opening"):
+        """Reject invalid settings."""
+        for name in self.__slots__:
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
         if not self.outer_opening > self.gap:
@@ -58,8 +59,8 @@ class FreeSpace:
         return shapely.union_all(self.tessellation.pieces[self.inside])
 
 
-def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
-    """Find the free space of a drawing.
+def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpace:
+    """Find the free space of a drawing (section 4.1).
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
     without passing an opening narrower than `outer_opening`. Yards and solid blocks are still among it: what
@@ -70,7 +71,7 @@ def free_space(sketch: SchematicMap, settings: FreeSpaceSettings) -> FreeSpace:
     diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
     if diameter == 0.0:
         raise NotEnclosedError(NOTHING)
-    strokes = significant(sketch.strokes, settings.blob * diameter)
+    strokes = significant(sketch.strokes, BLOB * diameter)
     walls = simplify_all(strokes, Simplification(settings.detail * diameter))
     found = within_contours(walls) if sketch.contours else within_strokes(walls, diameter, settings)
     if not found.inside.any():
@@ -104,7 +105,9 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool))
 
 
-def within_strokes(strokes: tuple[Polyline, ...], diameter: float, settings: FreeSpaceSettings) -> FreeSpace:
+def within_strokes(
+    strokes: tuple[Polyline, ...], diameter: float, settings: DecompositionSettings
+) -> FreeSpace:
     """Take what strokes enclose, openings to the outside closed and gaps mended."""
     walls = segments_of(strokes)
     framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))

@@ -77,7 +77,7 @@ class Gateway:
 
 @dataclass(frozen=True, slots=True)
 class Neighbor:
-    """A cell that one reaches through a gateway, and which way that lies."""
+    """A cell beyond a gateway, and its relative position (section 4.1)."""
 
     cell_id: str
     gateway_id: str
@@ -96,7 +96,7 @@ class CellGraph:
     diameter: float  # of the drawing: between its farthest points [drawing units]
 
     def __post_init__(self) -> None:
-        """Refuse a graph without cells and gateways to nowhere."""
+        """Reject a graph without cells, and gateways to nowhere."""
         if not self.cells:
             raise ValueError("cells must hold at least one cell, got none")
         known = {cell.cell_id for cell in self.cells}

@@ -1,7 +1,9 @@
-"""Merge pieces across weak openings until what is left is what a person would name."""
+"""Merge pieces across weak openings until each is what a person would name (Wolter 2001, section 4.1).
+
+An opening separates two cells if it narrows, has depth behind it, or stands between jambs (decision 0010).
+"""
 
 import heapq
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,24 +11,14 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.maps.cells.tessellation import Tessellation
 
+NARROWING = 1.4
+"""Both sides are this many times as wide as the opening: a door."""
 
-@dataclass(frozen=True, slots=True)
-class MergeSettings:
-    """When an opening separates two cells: it narrows, has depth behind it, or stands between jambs."""
+MOUTH, MOUTH_DEPTH = 1.8, 0.3
+"""Or one side is this many times as wide, and the smaller side has this area, in squares over the opening."""
 
-    narrowing: float = 1.4  # both sides are this many times as wide as the opening: a door
-    mouth: float = 1.8  # or one side is this many times as wide as the opening ...
-    mouth_depth: float = 0.3  # ... and the smaller side has this area, in squares over the opening
-    jambs: float = 1.25  # or free space widens this many times just beside the opening, on both sides, ...
-    jambs_narrowing: float = 1.1  # ... both sides are this many times as wide ...
-    jambs_depth: float = 0.6  # ... and the smaller has this area
-    least_area: float = 0.001  # and no cell is smaller than this share of all free space
-
-    def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
-        for name in self.__slots__:
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
+"""Or free space widens this many times beside it, with a lower narrowing and this area: a wide door."""
 
 
 class Regions:
@@ -45,10 +37,10 @@ class Regions:
             self.chords_to[first].setdefault(second, []).append(int(chord))
             self.chords_to[second].setdefault(first, []).append(int(chord))
 
-    def strength(self, first: int, second: int, total: float, settings: MergeSettings) -> float:
-        """Tell how much the openings between two regions separate them; below 1 too little."""
+    def strength(self, first: int, second: int, total: float, min_area: float) -> float:
+        """Tell how much the openings between two regions separate them; below 1 they are merged (4.1)."""
         smaller = min(self.areas[first], self.areas[second])
-        least = settings.least_area * total
+        least = min_area * total
         if smaller < least:
             return smaller / least
         chords = self.chords_to[first][second]
@@ -57,13 +49,9 @@ class Regions:
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
         jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
         return max(
-            narrowing / settings.narrowing,
-            min(mouth / settings.mouth, depth / settings.mouth_depth),
-            min(
-                jambs / settings.jambs,
-                narrowing / settings.jambs_narrowing,
-                depth / settings.jambs_depth,
-            ),
+            narrowing / NARROWING,
+            min(mouth / MOUTH, depth / MOUTH_DEPTH),
+            min(jambs / JAMBS, narrowing / JAMBS_NARROWING, depth / JAMBS_DEPTH),
         )
 
     def absorb(self, first: int, second: int) -> None:
@@ -82,16 +70,14 @@ class Regions:
         self.age[second] = -1
 
 
-def merge_pieces(
-    tessellation: Tessellation, among: NDArray[np.bool_], settings: MergeSettings
-) -> NDArray[np.int64]:
-    """Merge pieces, the weakest opening first, and tell the region of each, (p,); -1 for the rest."""
+def merge_pieces(tessellation: Tessellation, among: NDArray[np.bool_], min_area: float) -> NDArray[np.int64]:
+    """Merge pieces, the weakest opening first; return the region of each, (p,), -1 for the rest (4.1)."""
     regions = Regions(tessellation, among)
     total = float(tessellation.areas[among].sum())
     queue: list[tuple[float, int, int, int]] = []
 
     def consider(first: int, second: int) -> None:
-        strength = regions.strength(first, second, total, settings)
+        strength = regions.strength(first, second, total, min_area)
         if strength < 1.0:
             low, high = sorted((first, second))
             heapq.heappush(queue, (strength, low, high, regions.age[low] + regions.age[high]))
@@ -111,13 +97,11 @@ def merge_pieces(
     return np.asarray(regions.region_of, dtype=np.int64)
 
 
-def drop_small(
-    tessellation: Tessellation, regions: NDArray[np.int64], least_area: float
-) -> NDArray[np.int64]:
+def drop_small(tessellation: Tessellation, regions: NDArray[np.int64], min_area: float) -> NDArray[np.int64]:
     """Give up regions that are still too small because nothing opens to them: -1."""
     areas = region_areas(tessellation, regions)
     numbers = np.flatnonzero(areas > 0.0)
-    small = numbers[areas[numbers] < least_area * areas.sum()]
+    small = numbers[areas[numbers] < min_area * areas.sum()]
     return np.where(np.isin(regions, small), -1, regions)
 
 

@@ -1,4 +1,8 @@
-"""Where free space narrows: chords from wall to wall at which clearance has a minimum or begins to grow."""
+"""Where free space narrows (Wolter 2001, section 4.1).
+
+At a chord from wall to wall, clearance has a minimum along the Voronoi diagram or begins to grow. A door has
+jambs: free space widens beside it on both sides. The cut of a corridor has none.
+"""
 
 from dataclasses import dataclass
 
@@ -17,6 +21,12 @@ SHALLOW = 0.25
 
 BEHIND_WALLS = 1e-2
 """Share of a chord at either end that is not looked at when it must not touch a wall."""
+
+JAMB_DEPTH = 0.2
+"""Distance beside an opening at which free space is measured, in its widths."""
+
+JAMB_REACH = 2.0
+"""Distance to either side up to which it is measured, in widths of the opening."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,3 +115,33 @@ def without_crossing(segments: Array, walls: Array, chords: Array) -> Array:
             kept.append(int(order[rank]))
             crossed[second[first == rank]] = True
     return segments[sorted(kept)]
+
+
+def find_jambs(openings: Array, walls: Array) -> Array:
+    """Measure how far free space widens beside each opening (n, 2, 2), in its widths, (n,) (section 4.1).
+
+    It is measured parallel to the opening on both sides, of which the narrower counts: 1 in the midst of a
+    corridor and at its mouth, more at a door.
+    """
+    if len(openings) == 0:
+        return np.empty(0)
+    along = openings[:, 1] - openings[:, 0]
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    middle = openings.mean(axis=1)
+    lines = shapely.linestrings(walls.reshape(-1, 2, 2))
+    tree = shapely.STRtree(lines)
+    sides = []
+    for depth in (JAMB_DEPTH, -JAMB_DEPTH):
+        start = middle + depth * across
+        sides.append(free_distance(start, along, tree, lines) + free_distance(start, -along, tree, lines))
+    return np.asarray(np.minimum(sides[0], sides[1]))
+
+
+def free_distance(start: Array, along: Array, tree: shapely.STRtree, walls: NDArray[np.object_]) -> Array:
+    """Measure how far one sees from each point (n, 2) along (n, 2), in lengths of that, (n,)."""
+    rays = shapely.linestrings(np.stack([start, start + JAMB_REACH * along], axis=1))
+    ray, wall = tree.query(rays, predicate="intersects")
+    hits = shapely.distance(shapely.points(start[ray]), shapely.intersection(rays[ray], walls[wall]))
+    nearest = np.full(len(start), JAMB_REACH)
+    np.minimum.at(nearest, ray, hits / np.hypot(along[ray, 0], along[ray, 1]))
+    return nearest

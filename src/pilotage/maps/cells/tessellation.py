@@ -1,4 +1,4 @@
-"""Cut the plane along its narrowings: pieces, and the openings between them."""
+"""Cut free space along its narrowings: pieces, and the openings between them (Wolter 2001, section 4.1)."""
 
 from dataclasses import dataclass, replace
 
@@ -8,8 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.cells.jambs import find_jambs
-from pilotage.maps.cells.narrowings import find_chords
+from pilotage.maps.cells.narrowings import find_chords, find_jambs
 from pilotage.maps.cells.voronoi import GRID_STEPS, find_voronoi
 
 STEPS_A_NODE = 4.0
@@ -54,8 +53,8 @@ class Tessellation:
 
 def tessellate(walls: Array) -> Tessellation:
     """Cut what walls (n, 4) enclose along its chords."""
-    diagram = find_voronoi(walls)
-    chords = find_chords(diagram)
+    diagram = find_voronoi(walls)  # section 4.1: Voronoi diagram
+    chords = find_chords(diagram)  # section 4.1: narrowings
     step = STEPS_A_NODE * float(np.ptp(walls.reshape(-1, 2), axis=0).max()) / GRID_STEPS
     lines = np.vstack([diagram.segments, chords.segments.reshape(-1, 4)]).reshape(-1, 2, 2)
     noded = shapely.union_all(shapely.linestrings(lines), grid_size=step)

@@ -1,4 +1,7 @@
-"""The Voronoi diagram of segments, behind a guard: its builder never sees segments that cross."""
+"""The Voronoi diagram of the walls (Wolter 2001, section 4.1).
+
+Its builder fails on segments that cross, and never sees any: they are cut on an integer grid before.
+"""
 
 import math
 from dataclasses import dataclass

@@ -4,7 +4,7 @@ import numpy as np
 import rustworkx
 
 from pilotage.maps.cells.graph import CellGraph
-from pilotage.maps.routing.route import Point, RouteError
+from pilotage.maps.routing.roadmap import Point, RouteError
 
 SLACK = 0.005
 """How far beside a cell a point may lie, as a share of the diameter: a pencil's width off."""
