@@ -11,6 +11,7 @@ from pilotage.cli import main
 settings.register_profile(
     "patient",
     deadline=None,  # the first call compiles
+    max_examples=50,  # laws break early or, with derandomized examples, never
     derandomize=True,  # the same code gives the same answer
 )
 settings.load_profile("patient")

@@ -43,7 +43,7 @@ def test_congruent_contours_are_not_unlike_and_with_relative_lengths_similar_one
         assert dissimilarity(contour, similar, Comparison(measure)) == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(pairs(), strategies.poses, comparisons)
 def test_a_rigid_motion_of_either_changes_nothing(pair, pose, comparison):
     a, b = pair
@@ -53,7 +53,7 @@ def test_a_rigid_motion_of_either_changes_nothing(pair, pose, comparison):
     assert dissimilarity(a.moved(pose), b, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(pairs(), comparisons)
 def test_either_may_come_first(pair, comparison):
     a, b = pair
@@ -63,7 +63,7 @@ def test_either_may_come_first(pair, comparison):
     assert dissimilarity(b, a, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(pairs(), comparisons)
 def test_running_both_the_other_way_changes_nothing(pair, comparison):
     a, b = pair
@@ -75,7 +75,7 @@ def test_running_both_the_other_way_changes_nothing(pair, comparison):
     )
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(contours(closed=True), contours(closed=True), st.integers(0, 6), comparisons)
 def test_a_closed_contour_may_start_at_any_vertex(a, b, start, comparison):
     elsewhere = Polyline(np.roll(b.vertices, start, axis=0), closed=True)
@@ -85,7 +85,7 @@ def test_a_closed_contour_may_start_at_any_vertex(a, b, start, comparison):
     assert dissimilarity(a, elsewhere, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None)
 @given(pairs())
 def test_the_combination_is_never_more_than_equation_2(pair):
     assert dissimilarity(*pair, COMBINED) <= dissimilarity(*pair, TANGENT) + 1e-12

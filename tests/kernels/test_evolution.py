@@ -27,7 +27,7 @@ def survivors(kernel, runs, closed, min_relevance):
     ]
 
 
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None)
 @given(st.lists(strategies.polylines(min_size=3, max_size=9), min_size=1, max_size=3), thresholds)
 def test_the_heap_and_the_grid_change_nothing_against_looking_at_all(polylines, min_relevance):
     runs = [polyline.vertices for polyline in polylines]
@@ -38,7 +38,7 @@ def test_the_heap_and_the_grid_change_nothing_against_looking_at_all(polylines, 
     )
 
 
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None)
 @given(runs_on_a_grid, st.booleans(), thresholds)
 def test_touching_straight_and_repeated_vertices_are_decided_alike_by_both(runs, closed, min_relevance):
     closed = [closed] * len(runs)

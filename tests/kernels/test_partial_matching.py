@@ -42,7 +42,7 @@ def as_chain(vertices, first_goes_on, last_goes_on):
     )
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=40)
 @given(pairs_of_chains(), poses_near_identity, prices)
 def test_the_dynamic_programme_finds_what_trying_everything_finds(pair, pose, prices):
     seen, known = pair

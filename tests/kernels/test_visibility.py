@@ -44,7 +44,7 @@ def plain_score(state, beams, ranges):
     return score
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=40)
 @given(
     place=st.tuples(st.floats(-1.9, 1.9), st.floats(-1.9, 1.9)),
     heading=st.floats(-7.0, 7.0),

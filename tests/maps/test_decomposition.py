@@ -186,7 +186,7 @@ def floors(draw):
     return strokes
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=40)
 @given(floors())
 def test_cells_do_not_overlap_and_gateways_border_their_two_cells(strokes):
     graph = decomposed(*strokes)
