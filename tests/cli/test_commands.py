@@ -183,8 +183,8 @@ def test_settings_that_are_printed_can_be_read_back(pilotage, tmp_path):
 
 
 def test_a_setting_that_is_not_known_is_refused_by_name(pilotage, tmp_path):
-    (tmp_path / "mine.toml").write_text("[localizer.perception]\nmin_relevence = 1.0\n")
+    (tmp_path / "mine.toml").write_text("[localizer.scan_matching.perception]\nmin_relevence = 1.0\n")
     outcome = pilotage("localize", worlds.OFFICE.quick, worlds.LOG, "--settings", tmp_path / "mine.toml")
 
     assert 1 == outcome.code
-    assert "localizer.perception.min_relevence, the nearest known one is" in outcome.err
+    assert "localizer.scan_matching.perception.min_relevence, the nearest known one is" in outcome.err

@@ -70,6 +70,13 @@ def test_a_motion_that_a_robot_may_make_is_used(x, seconds):
     assert Pose2(x, 0.0, 0.1) == motion
 
 
+def test_a_turn_that_no_robot_makes_is_refused():
+    before = Odometry(0.0, Pose2.identity())
+
+    assert reported_motion(before, Odometry(0.1, Pose2(0.0, 0.0, 2.0))) is None
+    assert reported_motion(before, Odometry(0.5, Pose2(0.0, 0.0, 2.0))) is not None
+
+
 def test_where_rounding_eats_the_motion_it_is_refused():
     far = Odometry(0.0, Pose2(1e308, 1e308, 2.0))
 

@@ -102,7 +102,7 @@ class _Side(NamedTuple):
 
     @classmethod
     def of(cls, shape: PartialShape, *, turns: int) -> Self:
-        """Lay out a shape; a closed one so many times around."""
+        """Lay out a shape; a closed one several times around."""
         line = shape.polyline
         points = np.vstack([*[line.vertices] * (turns - 1), line.ring]) if line.closed else line.vertices
         steps = np.diff(points, axis=0)

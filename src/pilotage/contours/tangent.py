@@ -41,7 +41,7 @@ class TangentFunction:
     length: float  # of the whole contour
 
     def __post_init__(self) -> None:
-        """Copy and freeze the arrays, and refuse what is no function."""
+        """Copy and freeze the arrays, and reject what is no function."""
         object.__setattr__(self, "stops", frozen_array(self.stops))
         object.__setattr__(self, "directions", frozen_array(self.directions))
         if self.directions.ndim != 1 or self.stops.shape != (len(self.directions) + 1,):

@@ -14,7 +14,7 @@ def frozen_array(values: ArrayLike) -> Array:
 
 
 def frozen_points(points: ArrayLike, *, name: str, at_least: int) -> Array:
-    """Copy points (n, 2) and forbid writing; refuse another shape, too few or points that are not finite."""
+    """Copy points (n, 2) and forbid writing; reject another shape, too few or points that are not finite."""
     array = frozen_array(points)
     if array.ndim != 2 or array.shape[1] != 2:
         raise ValueError(f"{name} must have shape (n, 2), got {array.shape}")

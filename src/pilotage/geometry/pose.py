@@ -26,7 +26,7 @@ class Pose2:
     theta: float  # [rad], wrapped to (-pi, pi]
 
     def __post_init__(self) -> None:
-        """Refuse what is not finite, and wrap the angle."""
+        """Reject values that are not finite, and wrap the angle."""
         if not (math.isfinite(self.x) and math.isfinite(self.y) and math.isfinite(self.theta)):
             raise ValueError(f"a pose must be finite, got ({self.x}, {self.y}, {self.theta})")
         object.__setattr__(self, "x", float(self.x))

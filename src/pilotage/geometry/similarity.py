@@ -25,7 +25,7 @@ class Similarity2:
     pose: Pose2  # in units of frame a
 
     def __post_init__(self) -> None:
-        """Refuse a scale that is not a positive number."""
+        """Reject a scale that is not positive and finite."""
         if not (self.scale > 0.0 and math.isfinite(self.scale)):
             raise ValueError(f"scale must be positive and finite, got {self.scale}")
         object.__setattr__(self, "scale", float(self.scale))

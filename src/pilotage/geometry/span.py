@@ -16,7 +16,7 @@ class Span:
     trim_last: float = 0.0  # share of segment (last - 1, last) left out, [0, 1)
 
     def __post_init__(self) -> None:
-        """Refuse an empty stretch and shares that cut all away."""
+        """Reject an empty span, and shares that leave nothing of it."""
         if not 0 <= self.first < self.last:
             raise ValueError(f"a span needs 0 <= first < last, got first {self.first}, last {self.last}")
         for name, trim in (("trim_first", self.trim_first), ("trim_last", self.trim_last)):

@@ -21,7 +21,7 @@ class Trajectory:
     poses: Array  # (n, 3) x [m], y [m], theta [rad]
 
     def __post_init__(self) -> None:
-        """Copy and freeze; refuse arrays that do not belong together or are not finite."""
+        """Copy and freeze; reject arrays that do not belong together or are not finite."""
         stamps, poses = frozen_array(self.stamps), frozen_array(self.poses)
         if stamps.ndim != 1 or poses.shape != (len(stamps), 3):
             raise ValueError(

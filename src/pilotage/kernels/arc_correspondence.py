@@ -116,7 +116,7 @@ def closed_dissimilarity(
     """Compare two closed contours: arcs against arcs in cyclic order, or all against all from any vertex.
 
     A correspondence is found whatever its start, if one of its groups starts where we start. One of any
-    `largest_group` arcs in a row starts a group: so many starts of c and all of d are enough.
+    `largest_group` arcs in a row starts a group: as many starts of c and all of d are enough.
     """
     sizes = group_sizes(largest_group)
     costs = group_costs(c, d, sizes, measure, largest_run)

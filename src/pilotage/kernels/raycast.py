@@ -69,7 +69,7 @@ def cast_through(
             for member in range(grid.starts[k], grid.starts[k + 1]):
                 distance = distance_along(x, y, beam_x, beam_y, grid.segments[grid.members[member]])
                 ranges[i] = min(ranges[i], distance)
-            # from each border anew, so that no error adds up
+            # computed from each border again, so that errors do not add up
             border_x = grid.left + (column + (step_x > 0)) * grid.cell
             border_y = grid.bottom + (row + (step_y > 0)) * grid.cell
             leave_x = (border_x - x) / beam_x if beam_x != 0.0 else np.inf

@@ -1,4 +1,4 @@
-"""Which neighboring returns of a scan belong to one contour (Wolter 2001, section 2.1, mended)."""
+"""Which neighboring returns of a scan belong to one contour (Wolter 2001, section 2.1; decision 0005)."""
 
 import math
 

@@ -15,6 +15,12 @@ MAX_SPEED = 10.0
 MIN_REFUSED_STEP = 5.0
 """[m] Shorter steps are never refused: stamps of logs are equal, or run backwards, or have a coarse clock."""
 
+MAX_TURN_RATE = 10.0
+"""[rad/s] No robot with a laser turns faster."""
+
+MIN_REFUSED_TURN = math.pi / 2
+"""[rad] Smaller turns are never refused, for the same reason as short steps."""
+
 MAX_STEP = 100.0
 """[m] Longer steps are always refused, whatever the time between: no shape of the local map is that far."""
 
@@ -48,10 +54,12 @@ def reported_motion(before: Odometry, now: Odometry) -> Pose2 | None:
     first, second = before.odom_from_base, now.odom_from_base
     if max(abs(first.x), abs(first.y), abs(second.x), abs(second.y)) > MAX_COORDINATE:
         return None
-    farthest = min(max(MAX_SPEED * (now.stamp - before.stamp), MIN_REFUSED_STEP), MAX_STEP)
+    seconds = now.stamp - before.stamp
+    farthest = min(max(MAX_SPEED * seconds, MIN_REFUSED_STEP), MAX_STEP)
     if math.hypot(second.x - first.x, second.y - first.y) > farthest:
         return None
-    return first.inverse() @ second
+    motion = first.inverse() @ second
+    return motion if abs(motion.theta) <= max(MAX_TURN_RATE * seconds, MIN_REFUSED_TURN) else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,21 +19,19 @@ class Simplification:
     diagonal of the sheet or 0.006 times the perimeter.
     """
 
-    min_relevance: float = (
-        0.03  # [rad times unit of the polyline]; a right angle between 0.1 m sides has 0.079
-    )
+    min_relevance: float = 0.03  # [rad times unit of the polyline]; a right angle of 0.1 m sides has 0.079
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
+        """Reject invalid settings."""
         if not self.min_relevance >= 0.0:
             raise ValueError(f"min_relevance must be >= 0, got {self.min_relevance}")
 
 
 def simplify(polyline: Polyline, until: Simplification) -> Polyline:
-    """Delete the least relevant vertex, again and again, until all left are relevant.
+    """Delete the least relevant vertex until all that remain are relevant enough (section 2.2).
 
-    The vertices left are a subset of those given, in their order. Ends stay, closed polylines keep three
-    vertices, and what would make the line cross itself is not deleted.
+    The result is a subset of the vertices, in their order. End points are kept, closed polylines keep three
+    vertices, and no vertex is deleted if the line would then cross itself.
 
     >>> wall = Polyline.through([(0, 0), (1, 0.01), (2, 0), (2, 1)])
     >>> simplify(wall, Simplification(min_relevance=0.1)).vertices.tolist()

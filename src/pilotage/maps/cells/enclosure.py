@@ -52,14 +52,14 @@ def find_yards(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
         reach = space.tessellation.reaches[members].max()
         widest = openings.exits.max()
         outline = shapely.length(shapely.union_all(space.tessellation.pieces[members]))
-        agape = widest >= YARD_MOUTH * reach and openings.exits.sum() >= YARD_SHARE * outline
-        if len(openings.doors) == 0 or (agape and YARD_MOUTH * widest > openings.doors.max()):
+        is_wide_open = widest >= YARD_MOUTH * reach and openings.exits.sum() >= YARD_SHARE * outline
+        if len(openings.doors) == 0 or (is_wide_open and YARD_MOUTH * widest > openings.doors.max()):
             yards.append(int(number))
     return yards if len(yards) < len(np.unique(regions[regions >= 0])) else []
 
 
 def find_blocks(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
-    """Find closed regions amid others: what corridors run around is solid unless it has a door."""
+    """Find closed regions between others: what corridors run around is solid unless it has a door."""
     outdoors = shapely.union_all(space.tessellation.pieces[space.outside])
     blocks = []
     for number in np.unique(regions[regions >= 0]):

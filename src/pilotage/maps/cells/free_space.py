@@ -49,7 +49,7 @@ class DecompositionSettings:
 class FreeSpace:
     """The pieces of the plane that are free, and those of the outside."""
 
-    tessellation: Tessellation  # mended: no chord is narrower than a gap
+    tessellation: Tessellation  # no chord is narrower than a gap
     inside: NDArray[np.bool_]  # (p,)
     outside: NDArray[np.bool_]  # (p,) what is neither is solid
 
@@ -108,13 +108,13 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
 def within_strokes(
     strokes: tuple[Polyline, ...], diameter: float, settings: DecompositionSettings
 ) -> FreeSpace:
-    """Take what strokes enclose, openings to the outside closed and gaps mended."""
+    """Take what strokes enclose, with openings to the outside and gaps closed."""
     walls = segments_of(strokes)
     framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
-    mended = framed.with_chords(framed.widths >= settings.gap * diameter)
-    outside = find_outside(mended, settings.outer_opening * diameter)
-    slits = mended.reaches < settings.gap * diameter
-    return FreeSpace(mended, ~outside & ~slits, outside)
+    closed = framed.with_chords(framed.widths >= settings.gap * diameter)
+    outside = find_outside(closed, settings.outer_opening * diameter)
+    slits = closed.reaches < settings.gap * diameter
+    return FreeSpace(closed, ~outside & ~slits, outside)
 
 
 def frame_around(walls: Array, margin: float) -> Array:

@@ -98,7 +98,7 @@ def merge_pieces(tessellation: Tessellation, among: NDArray[np.bool_], min_area:
 
 
 def drop_small(tessellation: Tessellation, regions: NDArray[np.int64], min_area: float) -> NDArray[np.int64]:
-    """Give up regions that are still too small because nothing opens to them: -1."""
+    """Drop regions that are still too small because nothing opens to them: -1."""
     areas = region_areas(tessellation, regions)
     numbers = np.flatnonzero(areas > 0.0)
     small = numbers[areas[numbers] < min_area * areas.sum()]

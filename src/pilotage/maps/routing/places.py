@@ -27,7 +27,7 @@ def find_labeled(graph: CellGraph, words: str) -> Point:
 
 
 def check_place(graph: CellGraph, point: Point, what: str) -> None:
-    """Refuse a point that lies in no cell; `what` names it in the message.
+    """Reject a point that lies in no cell; `what` names it in the message.
 
     Raises RouteError that says whether it lies outside the drawing or where nothing is free.
     """
@@ -36,13 +36,13 @@ def check_place(graph: CellGraph, point: Point, what: str) -> None:
         return
     bounds = np.array([cell.polygon.bounds for cell in graph.cells])
     low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
-    amid = bool((low <= point).all() and (point <= high).all())
-    where = "in a wall or in a place that is not free" if amid else "outside the drawing"
+    is_inside = bool((low <= point).all() and (point <= high).all())
+    where = "in a wall or in a place that is not free" if is_inside else "outside the drawing"
     raise RouteError(f"the {what} lies {where}, the nearest cell is {cell_id}")
 
 
 def check_reachable(graph: CellGraph, goal: Point, start: Point | None = None) -> None:
-    """Refuse a goal to which no gateways lead from the start, or from most of the drawing if that is unknown.
+    """Reject a goal to which no gateways lead from the start, or from the largest part of the drawing.
 
     Raises RouteError that names the cells.
     """
@@ -61,7 +61,7 @@ def check_reachable(graph: CellGraph, goal: Point, start: Point | None = None) -
 
 
 def connected_cells(graph: CellGraph) -> list[set[str]]:
-    """Part the cells by what gateways join, the part of the largest area first."""
+    """Group the cells that gateways connect, the group of the largest area first."""
     network = rustworkx.PyGraph()
     network.add_nodes_from([cell.cell_id for cell in graph.cells])
     index = graph.index_from_id
