@@ -1,4 +1,8 @@
-"""The paper's measure of shape: dissimilarity and matching (Wolter 2001, sections 3, 3.1 and 3.2)."""
+"""The paper's measure of shape: dissimilarity and matching (Wolter 2001, sections 3, 3.1 and 3.2).
+
+The product does not use it by default: `method = "shapes"` in the settings of scan matching asks for it
+(docs/theory/paper.md).
+"""
 
 from pilotage.contours.arcs import Arc, Bend, find_arcs
 from pilotage.contours.dissimilarity import (

@@ -108,6 +108,7 @@ class MotionPrior(NamedTuple):
     odom_from_base: Pose2
     position_std: float  # [m]
     heading_std: float  # [rad]
+    is_known: bool = True  # False if odometry was refused
 
     @classmethod
     def of(cls, motion: Pose2, odom_from_last: Pose2, noise: OdometryNoise) -> "MotionPrior":
@@ -117,7 +118,9 @@ class MotionPrior(NamedTuple):
     @classmethod
     def unknown(cls, odom_from_last: Pose2) -> "MotionPrior":
         """Expect the robot near its last pose: nothing is known about its motion."""
-        return cls(Pose2.identity(), odom_from_last, UNKNOWN_POSITION_STD, UNKNOWN_HEADING_STD)
+        return cls(
+            Pose2.identity(), odom_from_last, UNKNOWN_POSITION_STD, UNKNOWN_HEADING_STD, is_known=False
+        )
 
     @property
     def pose(self) -> Array:

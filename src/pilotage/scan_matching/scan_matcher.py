@@ -7,7 +7,7 @@ from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
 from pilotage.scan_matching.local_map import LocalMap
 from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise, reported_motion, update_noise
-from pilotage.scan_matching.register import Method, register
+from pilotage.scan_matching.register import Method, Registration, register
 from pilotage.shape import PartialShape
 
 MIN_LEARNING_INLIERS = 0.25
@@ -66,38 +66,42 @@ class ScanMatcher:
 
     def update(self, scan: LaserScan, odometry: Odometry) -> ScanMotion:
         """Take in one scan, and the odometry at its moment."""
-        shapes = perceive(scan, self.settings.perception)  # sections 2.1, 2.2
-        prior, refused = self._motion_prior(odometry)
-        registration = register(shapes, self.local_map, prior, self.settings.method)  # 3.3, steps 1 to 3
-        odom_from_base, noise = registration.odom_from_base, self.noise
-        if registration.fit is None:
-            last_from_base = prior.motion
-        else:
-            last_from_base = self.odom_from_base.inverse() @ odom_from_base
-            if not refused and registration.inlier_share >= MIN_LEARNING_INLIERS:
-                noise = update_noise(noise, prior, registration.fit.pose, registration.fit.hessian)
+        settings = self.settings
+        shapes = perceive(scan, settings.perception)  # sections 2.1, 2.2
+        prior = self._motion_prior(odometry)
+        registration = register(shapes, self.local_map, prior, settings.method)  # 3.3, steps 1 to 3
+        odom_from_base = registration.odom_from_base
+        last_from_base = self.odom_from_base.inverse() @ odom_from_base if registration.fit else prior.motion
         traveled = self._traveled + math.hypot(last_from_base.x, last_from_base.y)
-        is_keyframe = self._is_keyframe(odom_from_base)
-        local_map = self.local_map
-        if is_keyframe:  # 3.3, step 4
+        noise = self._updated_noise(prior, registration)
+        local_map, odom_from_keyframe = self.local_map, self._odom_from_keyframe
+        if self._is_keyframe(odom_from_base):
             new = tuple(shapes[index].moved(odom_from_base) for index in registration.unmatched)
-            local_map = local_map.extended(new, traveled, self.settings.window)
+            local_map = local_map.extended(new, traveled, settings.window)  # 3.3, step 4
+            odom_from_keyframe = odom_from_base
 
-        if is_keyframe:
-            self._odom_from_keyframe = odom_from_base
         self.local_map, self.odom_from_base, self.noise = local_map, odom_from_base, noise
-        self._odometry, self._traveled = odometry, traveled
-        self.refused_count += refused
-        return ScanMotion(last_from_base, odom_from_base, shapes, registration.inlier_share, refused)
+        self._odometry, self._traveled, self._odom_from_keyframe = odometry, traveled, odom_from_keyframe
+        self.refused_count += not prior.is_known
+        return ScanMotion(
+            last_from_base, odom_from_base, shapes, registration.inlier_share, not prior.is_known
+        )
 
-    def _motion_prior(self, odometry: Odometry) -> tuple[MotionPrior, bool]:
-        """Carry the last pose on by what odometry reports; tell whether the report is refused."""
+    def _motion_prior(self, odometry: Odometry) -> MotionPrior:
+        """Carry the last pose on by what odometry reports."""
         if self._odometry is None:
-            return MotionPrior.of(Pose2.identity(), self.odom_from_base, self.noise), False
+            return MotionPrior.of(Pose2.identity(), self.odom_from_base, self.noise)
         motion = reported_motion(self._odometry, odometry)
         if motion is None:
-            return MotionPrior.unknown(self.odom_from_base), True
-        return MotionPrior.of(motion, self.odom_from_base, self.noise), False
+            return MotionPrior.unknown(self.odom_from_base)
+        return MotionPrior.of(motion, self.odom_from_base, self.noise)
+
+    def _updated_noise(self, prior: MotionPrior, registration: Registration) -> OdometryNoise:
+        """Learn from what registration found, if it can judge odometry."""
+        fit = registration.fit
+        if fit is None or not prior.is_known or registration.inlier_share < MIN_LEARNING_INLIERS:
+            return self.noise
+        return update_noise(self.noise, prior, fit.pose, fit.hessian)
 
     def _is_keyframe(self, odom_from_base: Pose2) -> bool:
         """Tell whether the robot moved far enough for a new scan to be worth entering."""
