@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array
-from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
+
+X, Y, HEADING, LOG_SCALE = range(4)
 from pilotage.maps import Atlas, Roads
 from pilotage.maps.range_table import RangeTable
 from pilotage.maps.route import Point
@@ -34,10 +35,13 @@ class CostToGo:
         Points (n, 2) are in the robot's frame [m]. Where no way leads to the goal nothing is saved. No move
         saves or loses more than its length: if it seems to, it leads through a drawn wall.
         """
+        from pilotage.kernels.displacement import displace
+
         here = self.at(states[[X, Y]].T)
         saved = np.zeros(len(points))
         for index, (x, y) in enumerate(points):
-            there = self.at((states[[X, Y]] + stretched(states, x, y)).T)
+            ones = np.ones(states.shape[1])
+            there = self.at((states[[X, Y]] + displace(states, x * ones, y * ones)).T)
             leads = np.isfinite(here) & np.isfinite(there)
             nearer = (here[leads] - there[leads]) / np.exp(states[LOG_SCALE, leads])
             saved[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()

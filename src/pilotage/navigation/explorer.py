@@ -5,8 +5,7 @@ from collections.abc import Collection
 import numpy as np
 
 from pilotage.geometry import Array
-from pilotage.localization import Hypothesis
-from pilotage.localization.belief import Belief
+from pilotage.localization import PoseHypothesis
 from pilotage.maps import Atlas, Roads
 from pilotage.maps.route import Point
 from pilotage.navigation.cost_to_go import cost_to_go
@@ -47,9 +46,9 @@ class Explorer:
         self,
         reach: Reach,
         trail: Array,
-        places: tuple[Hypothesis, ...],
+        places: tuple[PoseHypothesis, ...],
         *,
-        belief: Belief | None = None,
+        belief: Array | None = None,
         closed: Collection[str] = (),
     ) -> tuple[int, bool]:
         """Choose one of `reach.points`, and tell whether it leads on, or only back.

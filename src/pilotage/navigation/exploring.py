@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.localization import Hypothesis
-from pilotage.localization.belief import Belief
+from pilotage.localization import PoseHypothesis
 from pilotage.maps import Atlas
 from pilotage.navigation.cost_to_go import CostToGo
 from pilotage.navigation.surroundings import Reach
@@ -78,11 +77,11 @@ def box_mean(mask: NDArray[np.bool_], half: int) -> Array:
 def choose_rim(
     reach: Reach,
     trail: Array,
-    places: tuple[Hypothesis, ...],
+    places: tuple[PoseHypothesis, ...],
     atlas: Atlas,
     settings: ExploringSettings,
     *,
-    goal: tuple[CostToGo, Belief] | None = None,
+    goal: tuple[CostToGo, Array] | None = None,
 ) -> int | None:
     """Choose the place of `reach.points` that is most worth driving to; None if there is none.
 
@@ -106,7 +105,7 @@ def choose_rim(
     return int(rims[worth.argmax()])
 
 
-def differences(points: Array, places: tuple[Hypothesis, ...], atlas: Atlas) -> Array:
+def differences(points: Array, places: tuple[PoseHypothesis, ...], atlas: Atlas) -> Array:
     """Tell how much the places held possible differ in what they would show from points (n, 2), (n,).
 
     Points are in the robot's frame [m]; the difference is the deviation of log ranges [m] between places, by
@@ -134,12 +133,12 @@ def differences(points: Array, places: tuple[Hypothesis, ...], atlas: Atlas) -> 
     return np.asarray(np.sqrt(variance).mean(axis=1))
 
 
-def saved_towards(goal: tuple[CostToGo, Belief] | None, points: Array) -> Array:
+def saved_towards(goal: tuple[CostToGo, Array] | None, points: Array) -> Array:
     """Tell how much nearer the goal is from points (n, 2) in the robot's frame [m], (n,); 0 without one."""
     if goal is None:
         return np.zeros(len(points))
     cost_to_go, belief = goal
-    return cost_to_go.saved(points, belief.picked(SAMPLE))
+    return cost_to_go.saved(points, belief)
 
 
 def farthest(reach: Reach, trail: Array) -> int:

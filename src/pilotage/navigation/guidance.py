@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from pilotage.geometry import Array
-from pilotage.localization.placement import Placement
+from pilotage.geometry import Affine2, Array
 from pilotage.maps import CellGraph, Gateway, Roads, Route
 from pilotage.maps.route import Point
 
@@ -39,14 +38,17 @@ class Leg:
         return self.route.cell_ids[1] if len(self.route.cell_ids) > 1 else ""
 
 
-def lead(placement: Placement, roads: Roads, goal: Point, closed: Collection[str] = ()) -> Leg:
+def lead(sketch_from_base: Affine2, roads: Roads, goal: Point, closed: Collection[str] = ()) -> Leg:
     """Find the next point to head for from where the robot is believed to be.
 
     Raises RouteError if no way leads to the goal through gateways that are not `closed`.
     """
     graph = roads.graph
-    route = roads.find(inside(graph, placement.position), inside(graph, goal), closed)
-    way = placement.base_from_sketch(route.way)
+    base_from_sketch = sketch_from_base.inverse()
+    x, y = sketch_from_base.translation.tolist()
+    route = roads.find(inside(graph, (x, y)), inside(graph, goal), closed)
+    way = base_from_sketch @ route.way
+    way = np.array(way)
     way[0] = 0.0
     away = np.hypot(way[:, 0], way[:, 1])
     ahead = np.flatnonzero(away[1:-1] > PASSED) + 1
@@ -58,13 +60,13 @@ def lead(placement: Placement, roads: Roads, goal: Point, closed: Collection[str
         point = way[index] + leg * (min(BEYOND[0], length) / length if length > 0.0 else 0.0)
         return Leg(route, way, point, "", way[index])
     cell_id = cell_behind(route, gateway)
-    behind = point_behind(gateway, graph, cell_id, placement.scale)
+    behind = point_behind(gateway, graph, cell_id, sketch_from_base.scale)
     return Leg(
         route,
         way,
-        placement.base_from_sketch(behind[np.newaxis])[0],
+        (base_from_sketch @ behind[np.newaxis])[0],
         gateway.gateway_id,
-        placement.base_from_sketch(gateway.middle[np.newaxis])[0],
+        (base_from_sketch @ gateway.middle[np.newaxis])[0],
     )
 
 

@@ -7,12 +7,11 @@ import numpy as np
 
 from pilotage.geometry import Array, Twist, wrap_angle
 from pilotage.localization import Estimate, Localizer, Status
-from pilotage.localization.placement import Placement
 from pilotage.maps import NotEnclosedError, Roads, RouteError, RouteSettings, check_place
 from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
 from pilotage.navigation.closures import Closures, ClosureSettings
 from pilotage.navigation.explorer import Explorer
-from pilotage.navigation.exploring import ExploringSettings, choose_onward
+from pilotage.navigation.exploring import SAMPLE, ExploringSettings, choose_onward
 from pilotage.navigation.guidance import Leg, lead
 from pilotage.navigation.progress import Progress
 from pilotage.navigation.reckoning import Reckoning
@@ -157,39 +156,39 @@ class Navigator:
         reach = self.surroundings.reach(self.settings.radius)
         if len(reach.cells) == 0:
             return None
-        estimate, placement = reckoning.estimate, reckoning.placement
-        confidence, spread = estimate.confidence, placement.spread
+        estimate = reckoning.here
+        confidence, spread = estimate.confidence, estimate.position_std
         self._arrival = self._arrival.at(stamp, confidence, spread, self.settings.arrival)
         if self._arrival.doubt is Doubt.WHERE_IN_IT:
-            plan = self._go_on(reach, placement)
+            plan = self._go_on(reach, estimate)
             if plan is not None:
                 return plan
             self._arrival = self._arrival.forgotten()
         explores = self._arrival.doubt is Doubt.WHICH_PLACE or stamp < self._explore_until
         knows = estimate.hypotheses[0].probability >= self.settings.act_on
-        leg = self._leg(stamp, placement) if knows and not explores else None
+        leg = self._leg(stamp, estimate) if knows and not explores else None
         if leg is None:
             return self._explore(reach, estimate)
-        plan = self._follow(reach, leg, placement)
+        plan = self._follow(reach, leg, estimate)
         return self._watch(plan, reach, stamp, reckoning)
 
-    def _leg(self, stamp: float, placement: Placement) -> Leg | None:
+    def _leg(self, stamp: float, estimate: Estimate) -> Leg | None:
         """Ask the drawing for the way; forget closed gateways after a while, and if nothing else is left."""
         self._closures = self._closures.lasting(stamp, self.settings.closures)
         for closed in (self._closures.gateway_ids, ()):
             try:
-                return lead(placement, self.roads, self.goal, closed)
+                return lead(estimate.sketch_from_base, self.roads, self.goal, closed)
             except RouteError:
                 if not closed:
                     return None
                 self._closures = self._closures.opened()
         return None
 
-    def _follow(self, reach: Reach, leg: Leg, placement: Placement) -> Plan:
+    def _follow(self, reach: Reach, leg: Leg, estimate: Estimate) -> Plan:
         """Go where one can come nearest to the point that the drawing names, but rather on the route."""
         settings, odom_from_base = self.settings, reach.surroundings.odom_from_base
         point = (odom_from_base @ leg.point[np.newaxis])[0]
-        on_paper = placement.sketch_from_base(odom_from_base.inverse() @ reach.points)
+        on_paper = estimate.sketch_from_base @ (odom_from_base.inverse() @ reach.points)
         on_route = self.localizer.atlas.are_in(leg.route.cell_ids, on_paper)
         index = reach.nearest(point, way=settings.way, extra=np.where(on_route, 0.0, settings.astray))
         near = leg.gateway_id and float(np.hypot(*leg.middle)) < 1.0
@@ -210,7 +209,7 @@ class Navigator:
                 return replace(plan, behavior=Behavior.REST)
             estimate = reckoning.estimate
             has_moved = len(self.trail) > 1  # before that it knows what it was told
-            spread = reckoning.placement.spread if has_moved else 0.0
+            spread = reckoning.estimate.position_std if has_moved else 0.0
             self._arrival = self._arrival.judged(stamp, estimate, spread, settings.arrival)
             if self._arrival.doubt is Doubt.NONE:
                 self._end(Outcome.REACHED, f"the goal in {estimate.cell_id} is reached")
@@ -237,13 +236,15 @@ class Navigator:
         """Turn on the spot until all was seen: a scanner that sees all around need not turn."""
         self._turn_left = self._blind if self._blind > BLIND else 0.0
 
-    def _go_on(self, reach: Reach, placement: Placement) -> Plan | None:
+    def _go_on(self, reach: Reach, estimate: Estimate) -> Plan | None:
         """Drive on in the direction in which the place is uncertain; None at a dead end."""
         self._explorer.interrupt()
         if self._progress.is_stuck(self.settings.patience):
             self._progress = Progress()
             return None
-        axis = reach.surroundings.odom_from_base.rotation @ np.linalg.solve(placement.linear, placement.axis)
+        axis = reach.surroundings.odom_from_base.rotation @ np.linalg.solve(
+            estimate.sketch_from_base.linear, np.array(estimate.position_axis)
+        )
         index = choose_onward(reach, axis)
         return None if index is None else Plan(Behavior.EXPLORE, reach.way_to(index))
 
@@ -255,7 +256,7 @@ class Navigator:
             self._progress = Progress()
             self._explorer.give_up()
         doubts = self._arrival.doubt is Doubt.WHICH_PLACE  # where the goal seemed to be: away from there
-        belief = None if doubts else self.localizer.believed
+        belief = None if doubts else self.localizer.sample(SAMPLE)
         closed = self._closures.gateway_ids
         index, leads_on = self._explorer.choose(
             reach, self.trail, estimate.hypotheses, belief=belief, closed=closed
@@ -293,8 +294,8 @@ class Navigator:
             command,
             behavior,
             reckoning.estimate,
-            cell_belief=reckoning.cell_belief,
-            alignment_error=self.localizer.placement.spread,
+            cell_belief=reckoning.estimate.cell_probability,
+            alignment_error=reckoning.estimate.position_std,
             next_cell_id=leg.next_cell_id if leg else "",
             gateway_id=leg.gateway_id if leg else "",
             target=target,

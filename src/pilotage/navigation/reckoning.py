@@ -4,7 +4,6 @@ import math
 
 from pilotage.geometry import Pose2, Twist
 from pilotage.localization import Estimate, Localizer, Status
-from pilotage.localization.placement import Placement
 from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry
 
@@ -15,7 +14,6 @@ class Reckoning:
     def __init__(self, localizer: Localizer, scan: LaserScan, odometry: Odometry) -> None:
         self.localizer = localizer
         self.estimate: Estimate = localizer.update(scan, odometry)
-        self.cell_belief = localizer.belief_in(self.estimate.cell_id)
         self.times_lost = 0  # how often the place was lost after it had been found
         self.moving = STILL  # how the robot moves now
         self.is_fresh = True  # whether the localizer was given the scan of now
@@ -30,19 +28,18 @@ class Reckoning:
             return
         before = self.estimate.status
         self.estimate = self.localizer.update(scan, odometry)
-        self.cell_belief = self.localizer.belief_in(self.estimate.cell_id)
         self._perceived = odometry
         self.times_lost += before is Status.LOCATED and self.estimate.status is Status.LOST
 
     @property
     def odom_from_base(self) -> Pose2:
         """The registered pose, carried on by what the wheels said since."""
-        return self.localizer.perception_map.odom_from_base @ self._since_perceived
+        return self.localizer.scan_matcher.odom_from_base @ self._since_perceived
 
     @property
-    def placement(self) -> Placement:
-        """Where in its surroundings the robot stands, carried on alike."""
-        return self.localizer.placement.moved(self._since_perceived)
+    def here(self) -> Estimate:
+        """The last estimate, moved by odometry since."""
+        return self.estimate.moved(self._since_perceived)
 
     @property
     def _since_perceived(self) -> Pose2:
