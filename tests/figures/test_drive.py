@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from drives import GATEWAY, GRAPH, SECOND, SKETCH, moment, through_the_door
+from made_up_drive import GATEWAY, GRAPH, SECOND, SKETCH, moment, through_the_door
 from pilotage.figures.animation import LEAST_STEP, MOST_FRAMES, animate, caption_of, chosen_frames
 from pilotage.figures.drive import drive_figure, passed_gateways
 from pilotage.figures.style import save

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
-from pilotage.figures.recording import Recording
 from pilotage.figures.trail import COLORS, LOCATED_WIDTH, LOST_WIDTH, STILL, draw_stretches, find_stretches
 from pilotage.figures.words import clock
 from pilotage.figures.world import draw_segments, draw_world
@@ -32,7 +32,7 @@ GUESSES = 8
 """Crosses on a stretch on which it was lost, about."""
 
 
-def drive_figure(drive: Recording, title: str = "") -> Figure:
+def drive_figure(drive: Drive, title: str = "") -> Figure:
     """Draw a drive on the drawing and in the world, colored by what the robot was about.
 
     Both pictures bear the same marks of time.
@@ -59,7 +59,7 @@ def drive_figure(drive: Recording, title: str = "") -> Figure:
     return figure
 
 
-def draw_believed(axes: Axes, drive: Recording) -> None:
+def draw_believed(axes: Axes, drive: Drive) -> None:
     """Draw the way as claimed, the gateways passed and those found closed, first fix, end and goal."""
     size, steps = drive.sketch.diagonal, drive.steps
     draw_strokes(axes, drive.sketch.strokes, linewidth=1.6)
@@ -75,7 +75,7 @@ def draw_believed(axes: Axes, drive: Recording) -> None:
     draw_marks(axes, drive.times, positions, located)
     if located.any():
         style.draw_ring(axes, positions[int(np.argmax(located))])
-    draw_goal(axes, drive.goal)
+    draw_goal(axes, drive.goal.point)
     style.draw_robot(axes, poses[-1], 0.03 * size)
 
 
@@ -86,7 +86,7 @@ def draw_guesses(axes: Axes, ways: Sequence[Array]) -> None:
     axes.scatter(x, y, marker="x", s=13.0, color=style.ACCENT, alpha=0.4, linewidths=0.8, zorder=6)
 
 
-def draw_true(axes: Axes, drive: Recording) -> None:
+def draw_true(axes: Axes, drive: Drive) -> None:
     """Draw the true way, and the people and closed doors as they were at the end."""
     low, high = drive.boxes[1]
     size = float(np.hypot(*(high - low)))

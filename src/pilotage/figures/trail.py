@@ -16,6 +16,7 @@ from pilotage.navigation import Behavior, Step
 COLORS = {
     Behavior.LOOK_AROUND: "#e39b2d",
     Behavior.EXPLORE: "#c8553d",
+    Behavior.DRIVE_ON: "#d98c7a",
     Behavior.CROSS: style.TRAIL,
     Behavior.GO_THROUGH: "#4f9d69",
     Behavior.BACK_OUT: "#8a5a9e",

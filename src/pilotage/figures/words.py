@@ -26,7 +26,7 @@ def name_cell(cell_id: str, graph: CellGraph | None) -> str:
 def describe(step: Step, seconds: float, graph: CellGraph | None) -> str:
     """Say in a line what goes on so many seconds after the first step."""
     words = [clock(seconds), step.behavior.value, describe_place(step, graph)]
-    words.append(f"cell {step.cell_belief:.2f}, place {step.estimate.confidence:.2f}")
+    words.append(f"cell {step.estimate.cell_probability:.2f}, place {step.estimate.probability:.2f}")
     if math.isfinite(step.distance):
         words.append(f"{step.distance:.0f} m to go")
     return "   ".join(words)
