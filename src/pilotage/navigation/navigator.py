@@ -26,6 +26,12 @@ TURNING = 0.7
 BEHIND = 0.1
 """Obstacles less far ahead than this [m] are taken from the grid: a scanner may not see backwards."""
 
+SEEING = 0.05
+"""Share of beams that return below which a far-seeing scanner counts as blind: it is covered, or broken."""
+
+FAR_SEEING = 10.0
+"""Range [m] of a scanner within which something always stands indoors."""
+
 WAITING = 0.05
 """Turn rate [rad/s] below which a robot that does not drive is waiting."""
 
@@ -94,6 +100,8 @@ class Navigator:
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
         """Turn the plan into a command to the wheels, and say what the robot does."""
         plan, steering, twist = self.plan, self.settings.steering, self.position.twist
+        if is_blind(scan):
+            return turn_on_the_spot(0.0, twist), Behavior.REST if plan.outcome else Behavior.WAIT
         if plan.behavior is Behavior.REST:
             return turn_on_the_spot(0.0, twist), Behavior.REST
         if len(plan.path) == 0:
@@ -128,3 +136,8 @@ class Navigator:
             outcome=plan.outcome,
             reason=plan.reason,
         )
+
+
+def is_blind(scan: LaserScan) -> bool:
+    """Tell whether a scanner that sees far sees nothing at all: the robot must not drive by it."""
+    return scan.range_max >= FAR_SEEING and float(scan.returned.mean()) < SEEING
