@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pilotage.worlds import PackedWorld
 
 MARK = ".pilotage-demo"
-"""A folder with this file in it was made by the demo, and may be made anew."""
+"""A folder with this file in it was made by the demo, and may be overwritten."""
 GOAL = "Ana"
 """Whom the robot visits: her room is at the other end of the floor."""
 

@@ -135,7 +135,7 @@ def passed_gateways(steps: Sequence[Step]) -> tuple[str, ...]:
 
 
 def draw_marks(axes: Axes, times: Array, positions: Array, shown: NDArray[np.bool_]) -> None:
-    """Mark round times (n,) [s] on a way (n, 2), the same ones whoever tells it."""
+    """Mark round times (n,) [s] on a way (n, 2), the same on both pictures."""
     every = next((gap for gap in CLOCK if times[-1] / gap <= MOST_MARKS), CLOCK[-1])
     for mark in np.arange(every, times[-1], every).tolist():
         k = int(np.searchsorted(times, mark))
