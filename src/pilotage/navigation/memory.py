@@ -20,6 +20,9 @@ PLAN_EVERY = 0.3
 ALL_AROUND = math.radians(30.0)
 """A scanner that leaves out less than this [rad] sees all around and need not turn."""
 
+BUSY_WITH_DOUBT = (Behavior.DRIVE_ON, Behavior.LOOK_AROUND)
+"""Behaviors of a robot that still looks for where in the goal's place it is."""
+
 DETOUR = 10.0
 """How long [s] the robot explores after it stalled on its route; longer by as much each time."""
 
@@ -77,9 +80,8 @@ class Memory:
         if plan.arrival is not None:
             look_until = position.turned + self.unseen_angle
             memory = replace(memory, arrival=plan.arrival, look_until=look_until)
-        elif plan.behavior is not Behavior.DRIVE_ON and self.arrival.doubt is Doubt.WHERE_IN_IT:
-            has_begun = plan.behavior is not Behavior.LOOK_AROUND
-            memory = replace(memory, arrival=self.arrival.forgotten() if has_begun else self.arrival)
+        elif self.arrival.doubt is Doubt.WHERE_IN_IT and plan.behavior not in BUSY_WITH_DOUBT:
+            memory = replace(memory, arrival=self.arrival.forgotten())  # nothing led on
         if plan.leg is not None and plan.follows_route:
             blocked = self.blocked.stayed_near(
                 plan.leg,
