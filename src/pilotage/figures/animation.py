@@ -1,4 +1,4 @@
-"""A drive as a moving picture: what the robot believes beside what is true."""
+"""A drive as an animation: what the robot believes beside what is true."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -111,7 +111,7 @@ def open_stage(drive: Drive) -> tuple[Figure, Axes, Axes]:
 
 
 def caption_of(drive: Drive, k: int) -> str:
-    """Say in a line what goes on at a step."""
+    """Say in a line what happens at a step."""
     step, seconds = drive.steps[k], drive.times[k]
     if step.outcome is None:
         return describe(step, seconds, drive.graph)

@@ -22,7 +22,7 @@ from pilotage.navigation import Step
 from pilotage.simulation import Scene
 
 JUMP = 0.04
-"""A step longer than this share of the drawing's diagonal is a change of mind, not a motion."""
+"""A step longer than this share of the drawing's diagonal is a jump of the estimate, not a motion."""
 PANEL_WIDTH, TALLEST = 6.4, 8.0  # [inches]
 FOOT = 0.8  # [inches] for the legend
 CLOCK = (10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 3600.0)  # [s] between marks of time
@@ -33,7 +33,7 @@ GUESSES = 8
 
 
 def drive_figure(drive: Drive, title: str = "") -> Figure:
-    """Draw a drive on the drawing and in the world, colored by what the robot was about.
+    """Draw a drive on the drawing and in the world, colored by behavior.
 
     Both pictures bear the same marks of time.
     """
@@ -60,7 +60,7 @@ def drive_figure(drive: Drive, title: str = "") -> Figure:
 
 
 def draw_believed(axes: Axes, drive: Drive) -> None:
-    """Draw the way as claimed, the gateways passed and those found closed, first fix, end and goal."""
+    """Draw the path as believed, the gateways passed and those found blocked, first fix, end and goal."""
     size, steps = drive.sketch.diagonal, drive.steps
     draw_strokes(axes, drive.sketch.strokes, linewidth=1.6)
     draw_labels(axes, drive.sketch)
@@ -80,14 +80,14 @@ def draw_believed(axes: Axes, drive: Drive) -> None:
 
 
 def draw_guesses(axes: Axes, ways: Sequence[Array]) -> None:
-    """Draw where it may have been while lost, some places of each way (n, 2)."""
+    """Draw where the robot may have been while lost: some points of each path (n, 2)."""
     thinned = [np.empty((0, 2)), *(way[:: max(1, len(way) // GUESSES)] for way in ways)]
     x, y = np.vstack(thinned).T
     axes.scatter(x, y, marker="x", s=13.0, color=style.ACCENT, alpha=0.4, linewidths=0.8, zorder=6)
 
 
 def draw_true(axes: Axes, drive: Drive) -> None:
-    """Draw the true way, and the people and closed doors as they were at the end."""
+    """Draw the true path, and the people and closed doors as they were at the end."""
     low, high = drive.boxes[1]
     size = float(np.hypot(*(high - low)))
     draw_world(axes, drive.world)
