@@ -90,7 +90,7 @@ def test_a_start_may_be_known_without_a_heading():
             GOAL,
             {"world_start": START},
             NotEnclosedError,
-            "has no cells",
+            "no closed room",
         ),
     ],
 )

@@ -65,6 +65,7 @@ def test_a_command_moves_both_robots_alike(robot_in, furnished):
     assert ours.world_from_base.theta == pytest.approx(theirs.world_from_base.theta)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("knows_start", [True, False])
 def test_the_robot_gets_to_the_goal_of_a_stretched_drawing(robot_in, furnished, knows_start):
     drawing = SchematicMap(tuple(Polyline(wall.vertices * STRETCHED) for wall in flat().strokes))

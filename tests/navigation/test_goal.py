@@ -71,5 +71,5 @@ def test_what_cannot_be_found_is_said():
         find_goal(ATLAS, "cellar")
     with pytest.raises(RouteError, match="goal lies outside the drawing"):
         find_goal(ATLAS, (500.0, 0.0))
-    with pytest.raises(NotEnclosedError, match="has no cells"):
+    with pytest.raises(NotEnclosedError, match="no closed room"):
         find_goal(build_atlas(SchematicMap((Polyline.through([(0, 0), (8, 0), (8, 3)]),)), coarse()), "x")

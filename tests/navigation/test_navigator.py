@@ -304,7 +304,7 @@ def test_a_goal_in_a_wall_is_rejected_before_anything_moves():
 def test_a_drawing_without_cells_cannot_be_driven_by():
     stroke = SchematicMap((Polyline.through([(0, 0), (8, 0), (8, 3)]),))
 
-    with pytest.raises(NotEnclosedError, match="has no cells"):
+    with pytest.raises(NotEnclosedError, match="no closed room"):
         Navigator(KnowingLocalizer(build_atlas(stroke, coarse()), START), (1.0, 1.0))
 
 

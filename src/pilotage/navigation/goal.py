@@ -47,7 +47,7 @@ def find_goal(atlas: Atlas, goal: Point | str) -> Goal:
     """
     graph = atlas.cell_graph
     if graph is None:
-        raise NotEnclosedError("a drawing to drive by must enclose free space, this one has no cells")
+        raise NotEnclosedError("a drawing to drive by must enclose free space, it has no closed room")
     if isinstance(goal, str):
         point = find_labeled(graph, goal)
         return Goal(point, graph.cell_at(point), goal)
