@@ -13,21 +13,17 @@ def leg(away, gateway_id="g1"):
     return RouteLeg(route, way, np.array([away + 1.0, 0.0]), gateway_id, np.array([away, 0.0]))
 
 
-def stayed(seconds, *, gap=0.0, away=1.0, here=lambda _: HERE, gateways=("g1",)):
+def stayed(seconds, *, away=1.0, here=lambda _: HERE, gateways=("g1",)):
     blocked = BlockedGateways()
     for step in range(int(seconds / 0.5)):
         ahead = leg(away, gateways[step % len(gateways)])
-        blocked = blocked.stayed_near(ahead, here(step), gap, stamp=0.5 * step, lasted=0.5, patience=8.0)
+        blocked = blocked.stayed_near(ahead, here(step), stamp=0.5 * step, lasted=0.5, patience=8.0)
     return blocked
 
 
 def test_a_gateway_that_is_not_got_through_for_long_is_closed():
     assert () == stayed(8.0).gateway_ids
     assert ("g1",) == stayed(9.0).gateway_ids
-
-
-def test_it_is_closed_sooner_where_nothing_behind_it_can_be_come_near_to():
-    assert ("g1",) == stayed(5.0, gap=2.0).gateway_ids
 
 
 def test_going_to_and_fro_between_two_gateways_closes_both():

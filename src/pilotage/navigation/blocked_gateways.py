@@ -12,9 +12,6 @@ from pilotage.navigation.route_leg import RouteLeg
 CLOSE_BY = 1.5
 """Distance to a gateway [m] from which the robot sees what lies behind it."""
 
-BEHIND = 0.8
-"""If the robot can come no nearer than this [m] to the waypoint behind a gateway, it looks blocked."""
-
 TO_BLAME = 3.0
 """Largest distance [m] of the gateway that blocks a robot which is stalled."""
 
@@ -48,14 +45,12 @@ class BlockedGateways:
         return replace(self, since={**self.since, leg.gateway_id: stamp})
 
     def stayed_near(
-        self, leg: RouteLeg, here: Array, gap: float, *, stamp: float, lasted: float, patience: float
+        self, leg: RouteLeg, here: Array, *, stamp: float, lasted: float, patience: float
     ) -> "BlockedGateways":
         """Block a gateway that the robot, `here` (2,) in odom [m], stays close to and does not get through.
 
         It is blocked, at the time `stamp` [s], once the robot stayed near it for longer than `patience` [s];
-        `lasted` [s] is the time since the last call. `gap` [m] is how near the robot can come to the waypoint
-        behind the gateway; where that is not near, the gateway looks blocked already, and half the time is
-        enough.
+        `lasted` [s] is the time since the last call. Going to and fro between gateways counts for each.
         """
         time_near = self.time_near
         if time_near and math.dist(here, self.near_from) > 2.0 * CLOSE_BY:
@@ -63,7 +58,7 @@ class BlockedGateways:
         if not leg.gateway_id or float(np.hypot(*leg.middle)) > CLOSE_BY:
             return replace(self, time_near=time_near)
         began = self.near_from if time_near else here
-        time = time_near.get(leg.gateway_id, 0.0) + (2.0 if gap > BEHIND else 1.0) * lasted
+        time = time_near.get(leg.gateway_id, 0.0) + lasted
         others = {one: value for one, value in time_near.items() if one != leg.gateway_id}
         if time > patience:
             return BlockedGateways({**self.since, leg.gateway_id: stamp}, others, began)

@@ -86,7 +86,6 @@ class Memory:
             blocked = self.blocked.stayed_near(
                 plan.leg,
                 position.odom_from_base.position,
-                plan.gap,
                 stamp=plan.stamp,
                 lasted=PLAN_EVERY,
                 patience=settings.patience,

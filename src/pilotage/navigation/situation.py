@@ -21,7 +21,11 @@ PATH_COST = 0.1
 """Cost [m] of a metre of the path, where the robot goes to the place that is nearest to a waypoint."""
 
 OFF_ROUTE = 1.0
-"""Cost [m] there of a place that seems to lie in a cell off the route."""
+"""Cost [m] there of a place that seems to lie in a cell off the route.
+
+Without it the robot enters the room before its goal, whose far corner is nearer to the waypoint: of 19 packed
+drives two were a third longer, and one ended beside its goal (decision 0014).
+"""
 
 AT_END = 0.3
 """Distance [m] from the end of the path at which the robot can come no nearer."""
