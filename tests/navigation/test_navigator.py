@@ -287,7 +287,8 @@ def test_equal_drives_are_equal():
         for _ in range(2)
     )
 
-    assert first == second
+    for one, other in zip(first, second, strict=True):
+        assert (one.command, one.behavior, one.target) == (other.command, other.behavior, other.target)
 
 
 def test_a_goal_in_a_wall_is_rejected_before_anything_moves():
