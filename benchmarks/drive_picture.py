@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.patches import Circle, Polygon
 
 from errands import Errand
-from pilotage.evaluation.drive import Destination, Drive
+from pilotage.drives import Drive
+from pilotage.evaluation.drive import Destination
 from pilotage.figures import style
 from pilotage.figures.drive import drive_figure
-from pilotage.figures.recording import Recording
 from sites import Drawing, Site
 
 
@@ -17,11 +17,7 @@ def write_picture(
     path: Path, driven: Drive, *, drawing: Drawing, site: Site, errand: Errand, title: str
 ) -> None:
     """Write the picture of a drive."""
-    sketch = drawing.atlas.sketch
-    x, y = drawing.warp.sketch_from_world(np.array([errand.goal]))[0].tolist()
-    steps, scenes = zip(*((instant.step, instant.scene) for instant in driven.instants), strict=True)
-    recording = Recording(sketch, site.world, (x, y), steps, scenes, drawing.atlas.cell_graph)
-    figure = drive_figure(recording, title)
+    figure = drive_figure(driven, title)
     believed, true = figure.axes[:2]
     carried = drawing.warp.sketch_from_world(driven.positions)
     believed.plot(*carried.T, color=style.INK, linewidth=1.0, linestyle=(0, (2, 2)), zorder=9)
@@ -31,6 +27,6 @@ def write_picture(
     true.add_patch(Polygon(room.exterior.coords, facecolor="#dcebdc", edgecolor="none", zorder=0))
     true.add_patch(Circle(errand.goal, goal.tolerance, fill=False, color=style.ACCENT, zorder=9))
     true.scatter(*errand.goal, marker="*", s=120.0, color=style.ACCENT, zorder=10)
-    hits = np.flatnonzero(np.diff([instant.scene.collisions for instant in driven.instants], prepend=0))
+    hits = np.flatnonzero(np.diff([scene.collisions for scene in driven.scenes], prepend=0))
     true.scatter(*driven.positions[hits].T, marker="X", s=70.0, color="red", zorder=12)
     style.save(figure, path)

@@ -10,7 +10,8 @@ import numpy as np
 
 from errands import Errand
 from pilotage.config import Settings
-from pilotage.evaluation.drive import Destination, Drive, DriveScore, navigate, score
+from pilotage.drives import Drive, navigate
+from pilotage.evaluation.drive import Destination, DriveScore, score
 from pilotage.geometry import Array
 from pilotage.io.journal import journal_file
 from sites import Site
@@ -74,7 +75,9 @@ def make(job: Job, options: Options) -> Result:
     except Exception as error:  # noqa: BLE001  # the drive itself went well
         complaint = complain(job, error)
     seconds = time.perf_counter() - began
-    return Result(job, scored, reason, right_room_share(job, driven), driven.step_ms, seconds, complaint)
+    return Result(
+        job, scored, reason, right_room_share(job, driven), np.array(driven.step_ms), seconds, complaint
+    )
 
 
 def complain(job: Job, error: Exception) -> str:
@@ -87,13 +90,15 @@ def drive_of(job: Job, options: Options) -> Drive:
     """Make one drive."""
     site, errand = sites[job.site], job.errand
     drawing = site.drawing_by[job.hand]
-    x, y = drawing.warp.sketch_from_world(np.array([errand.goal]))[0].tolist()
+    points = drawing.warp.sketch_from_world(np.array([errand.goal]))
+    x, y = drawing.atlas.sketch.file_from_sketch(points)[0].tolist()
     marked = drawing.warp.sketch_from_base(errand.start).pose
+    start = drawing.atlas.sketch.file_from_sketch(marked.position[np.newaxis])[0].tolist()
     return navigate(
         drawing.atlas,
         site.world,
         (x, y),
-        start=marked if job.mode == "known" else None,
+        start=(*start, marked.theta) if job.mode == "known" else None,
         world_start=errand.start,
         seed=1000 * options.seed + job.number,
         settings=options.settings,
@@ -106,8 +111,8 @@ def write_down(job: Job, options: Options, driven: Drive, reason: str) -> None:
     drawing = site.drawing_by[job.hand]
     if options.journal:
         with journal_file(options.journal / f"{job.name}.jsonl", drawing.atlas.sketch) as write:
-            for instant in driven.instants:
-                write(instant.step, instant.scene)
+            for step, scene in zip(driven.steps, driven.scenes, strict=True):
+                write(step, scene)
     if options.figure:
         from drive_picture import write_picture
 
@@ -122,7 +127,7 @@ def right_room_share(job: Job, driven: Drive) -> float:
     site = sites[job.site]
     drawing = site.drawing_by[job.hand]
     truths = site.rooms.names_at(driven.positions)
-    estimates = [instant.step.estimate for instant in driven.instants]
+    estimates = [step.estimate for step in driven.steps]
     claims = drawing.claimed_rooms(
         np.array([estimate.sketch_from_base.pose.position for estimate in estimates])
     )

@@ -16,13 +16,12 @@ def main(drawing: str, world: str, goal: str) -> None:
     """Print where the robot believes to be whenever that changes, and how the drive ended."""
     driven = pilotage.navigate(pilotage.open_map(drawing), pilotage.open_world(world), goal=goal)
     said = ""
-    for instant in driven.instants:
-        step = instant.step
-        now = f"{step.behavior.value}, {step.estimate.status.value} in {step.estimate.cell_id}"
+    for step in driven.steps:
+        now = f"{step.behavior.value}, {step.estimate.status.value} in {step.estimate.place}"
         if now != said:
             print(f"{step.stamp:8.1f} s  {now}")
             said = now
-    print(f"{driven.last.step.reason}; {driven.way:.0f} m, {driven.minutes:.1f} minutes")
+    print(f"{driven.reason}; {driven.length:.0f} m, {driven.minutes:.1f} minutes")
 
 
 if __name__ == "__main__":

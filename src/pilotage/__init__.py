@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pilotage.config import Settings
+    from pilotage.drives import Drive, navigate
     from pilotage.errors import FileError, PilotageError, SettingsError
-    from pilotage.evaluation.drive import Drive, navigate
     from pilotage.geometry import Pose2, Similarity2, Twist
     from pilotage.io import open_log, open_map, open_world
     from pilotage.localization import Estimate, Hypothesis, Localizer, LocalizerSettings, Status
@@ -52,8 +52,8 @@ __all__ = [
 
 HOMES = {
     "config": ("Settings",),
+    "drives": ("Drive", "navigate"),
     "errors": ("FileError", "PilotageError", "SettingsError"),
-    "evaluation.drive": ("Drive", "navigate"),
     "geometry": ("Pose2", "Similarity2", "Twist"),
     "io": ("open_log", "open_map", "open_world"),
     "localization": ("Estimate", "Hypothesis", "Localizer", "LocalizerSettings", "Status"),

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from drives import GRAPH, through_the_door
+from made_up_drive import GRAPH, through_the_door
 from pilotage.cli.drive import EVERY, follow, story
-from pilotage.evaluation.drive import Instant
+from pilotage.drives import Instant
 from pilotage.navigation import Outcome
 
 DRIVE = through_the_door()
@@ -32,6 +32,19 @@ def test_a_drive_that_is_given_up_says_why():
     assert "lost it 2 times" in told
 
 
+def test_a_drawing_that_does_not_fit_is_said_and_no_place_is_claimed():
+    told = story(ended(outcome=Outcome.MISMATCH, reason="this drawing does not fit this building"))
+
+    assert "the robot gave up: this drawing does not fit this building. It knew" in told
+    assert "believes" not in told
+
+
+def test_a_room_that_is_reached_is_not_called_a_point():
+    told = story(replace(DRIVE, goal=replace(DRIVE.goal, name="kitchen")))
+
+    assert "the robot says that it stands in c" in told
+
+
 def test_a_robot_that_never_knew_and_touched_something_says_so():
     steps, scenes = DRIVE.steps[:5], (*DRIVE.scenes[:4], replace(DRIVE.scenes[4], collisions=1))
     told = story(replace(DRIVE, steps=steps, scenes=scenes))
@@ -42,10 +55,10 @@ def test_a_robot_that_never_knew_and_touched_something_says_so():
 
 def test_each_step_is_written_and_a_line_is_said_now_and_then(capsys):
     written = []
-    steps, scenes = follow(INSTANTS, GRAPH, lambda step, scene: written.append((step, scene)))
+    instants = follow(INSTANTS, GRAPH, lambda step, scene: written.append((step, scene)))
 
-    assert list(DRIVE.steps) == steps
-    assert list(zip(steps, scenes, strict=True)) == written
+    assert INSTANTS == instants
+    assert [(one.step, one.scene) for one in instants] == written
     assert 1 + DRIVE.times[-1] // EVERY == capsys.readouterr().err.count("\n")
 
 
@@ -56,9 +69,7 @@ def interrupted(count):
 
 
 def test_a_drive_that_is_interrupted_ends_where_it_is():
-    steps, scenes = follow(interrupted(3), GRAPH, lambda _step, _scene: None)
-
-    assert 3 == len(steps) == len(scenes)
+    assert 3 == len(follow(interrupted(3), GRAPH, lambda _step, _scene: None))
 
 
 def test_a_drive_that_is_interrupted_before_it_began_is_none():

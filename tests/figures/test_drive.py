@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from drives import GATEWAY, GRAPH, SECOND, SKETCH, moment, through_the_door
+from made_up_drive import GATEWAY, GRAPH, SECOND, SKETCH, moment, through_the_door
 from pilotage.figures.animation import LEAST_STEP, MOST_FRAMES, animate, caption_of, chosen_frames
 from pilotage.figures.drive import drive_figure, passed_gateways
 from pilotage.figures.style import save
 from pilotage.figures.trail import find_stretches
 from pilotage.figures.words import describe
 from pilotage.geometry import Polyline
+from pilotage.localization import Status
 from pilotage.navigation import Behavior
 
 DRIVE = through_the_door()
@@ -113,6 +114,14 @@ def test_a_line_says_what_goes_on():
     assert f"next {SECOND}" in words
     assert words.endswith("4 m to go")
     assert "lost, perhaps in" in describe(moment(0, x=1.0, lost=True)[0], 0.0, None)
+
+
+def test_a_drawing_that_does_not_fit_is_said_and_no_place_is_named():
+    step, _ = moment(10, x=1.0)
+    wrong = replace(step, estimate=replace(step.estimate, status=Status.MISMATCH))
+
+    assert "the drawing does not fit" in describe(wrong, 0.0, GRAPH)
+    assert step.estimate.cell_id not in describe(replace(wrong, next_cell_id=""), 0.0, GRAPH)
 
 
 def test_the_last_caption_says_how_it_ended():

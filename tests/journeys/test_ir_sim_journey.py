@@ -8,7 +8,7 @@ import pytest
 
 from buildings import WALLS, flat
 from ir_sim_robot import IrSimRobot
-from pilotage.evaluation.drive import Drive, drive
+from pilotage.drives import Drive, drive
 from pilotage.geometry import Polyline, Pose2, Twist
 from pilotage.localization import Localizer
 from pilotage.maps import SchematicMap
@@ -65,12 +65,15 @@ def test_a_command_moves_both_robots_alike(robot_in, furnished):
     assert ours.world_from_base.theta == pytest.approx(theirs.world_from_base.theta)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("knows_start", [True, False])
 def test_the_robot_gets_to_the_goal_of_a_stretched_drawing(robot_in, furnished, knows_start):
     drawing = SchematicMap(tuple(Polyline(wall.vertices * STRETCHED) for wall in flat().strokes))
-    start = Pose2(*(START.position * STRETCHED), START.theta) if knows_start else None
+    x, y = START.position * STRETCHED
+    start = (x, y, START.theta) if knows_start else None
     navigator = Navigator(Localizer(drawing, seed=0, start=start), tuple(GOAL * STRETCHED))
-    driven = Drive(tuple(drive(navigator, robot_in(furnished, START))))
+    instants = list(drive(navigator, robot_in(furnished, START)))
+    driven = Drive.of(navigator.planner.atlas, World(furnished), navigator.planner.goal, instants)
 
     assert Outcome.REACHED is driven.outcome, driven.reason
     assert 0 == driven.collisions

@@ -2,24 +2,16 @@
 
 import math
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pilotage.geometry import Pose2, Similarity2
-from pilotage.localization import Estimate, Status
-from pilotage.navigation.arrival import Arrival, ArrivalSettings, Doubt
+from pilotage.navigation.arrival import DRIVE_ON_FOR, EXPLORE_FOR, Arrival, Doubt
 
-SETTINGS = ArrivalSettings(sure=0.9, easing=0.1, least=0.3, settled=0.5, look=10.0, drive_on=20.0)
+SURE = 0.9
 
 
-def knowing(confidence, status=Status.LOCATED):
-    return Estimate(0.0, status, "c1", Similarity2(1.0, Pose2.identity()), confidence)
-
-
-def judged(confidence, spread, *, times_doubted=0, status=Status.LOCATED):
-    arrival = Arrival(times_doubted)
-    return arrival.judged(5.0, knowing(confidence, status), spread, SETTINGS)
+def judged(probability, position_std, *, times_doubted=0):
+    return Arrival(times_doubted).judged(5.0, probability, position_std, SURE)
 
 
 def test_who_knows_the_place_and_where_in_it_may_stop():
@@ -27,12 +19,11 @@ def test_who_knows_the_place_and_where_in_it_may_stop():
 
 
 def test_who_is_not_sure_of_the_place_looks_for_more():
-    assert Arrival(1, Doubt.WHICH_PLACE, 15.0) == judged(0.85, 0.1)
-    assert Doubt.WHICH_PLACE is judged(0.95, 0.1, status=Status.LOST).doubt
+    assert Arrival(1, Doubt.WHICH_PLACE, 5.0 + EXPLORE_FOR) == judged(0.85, 0.1)
 
 
 def test_who_is_not_sure_where_in_it_drives_on():
-    assert Arrival(1, Doubt.WHERE_IN_IT, 25.0) == judged(0.95, 0.6)
+    assert Arrival(1, Doubt.WHERE_IN_IT, 5.0 + DRIVE_ON_FOR) == judged(0.95, 0.7)
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.0, 3.0), st.integers(0, 10))
@@ -45,40 +36,28 @@ def test_the_more_often_it_doubted_the_less_it_asks(confidence, spread, times_do
 
 @given(st.integers(0, 100))
 def test_a_place_that_is_hardly_believed_is_never_stopped_at(times_doubted):
-    assert Doubt.WHICH_PLACE is judged(0.25, 0.0, times_doubted=times_doubted).doubt
+    assert Doubt.WHICH_PLACE is judged(0.65, 0.0, times_doubted=times_doubted).doubt
 
 
 def test_a_doubt_ends_with_its_time():
     doubting = judged(0.5, 0.1)
 
-    assert doubting == doubting.at(14.9, 0.5, 0.1, SETTINGS)
-    assert Arrival(1) == doubting.at(15.0, 0.5, 0.1, SETTINGS)
+    assert doubting == doubting.updated(14.9, 0.5, 0.1, SURE)
+    assert Arrival(1) == doubting.updated(15.0, 0.5, 0.1, SURE)
 
 
 def test_which_place_it_is_is_no_doubt_once_the_robot_is_sure():
     doubting = judged(0.5, 0.1)
 
-    assert doubting == doubting.at(6.0, 0.89, 0.1, SETTINGS)
-    assert Arrival(1) == doubting.at(6.0, 0.9, 0.1, SETTINGS)
+    assert doubting == doubting.updated(6.0, 0.89, 0.1, SURE)
+    assert Arrival(1) == doubting.updated(6.0, 0.9, 0.1, SURE)
 
 
 def test_where_in_the_place_is_no_doubt_once_it_is_settled():
-    doubting = judged(0.95, 0.6)
+    doubting = judged(0.95, 0.7)
 
-    assert doubting == doubting.at(6.0, 0.95, 0.55, SETTINGS)
-    assert Arrival(1) == doubting.at(6.0, 0.95, 0.45, SETTINGS)
-
-
-@pytest.mark.parametrize("name", ["near", "settled"])
-def test_a_robot_that_cannot_arrive_is_refused(name):
-    with pytest.raises(ValueError, match=f"{name} must be > 0 m, got 0.0"):
-        ArrivalSettings(**{name: 0.0})
-
-
-@pytest.mark.parametrize("name", ["sure", "easing", "least"])
-def test_confidence_is_a_share(name):
-    with pytest.raises(ValueError, match=rf"{name} must be in \[0, 1\], got 1.5"):
-        ArrivalSettings(**{name: 1.5})
+    assert doubting == doubting.updated(6.0, 0.95, 0.65, SURE)
+    assert Arrival(1) == doubting.updated(6.0, 0.95, 0.45, SURE)
 
 
 def test_nothing_is_doubted_at_first():

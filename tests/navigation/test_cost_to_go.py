@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from buildings import coarse, flat
 from pilotage.geometry import Polyline
-from pilotage.localization.belief import Belief
 from pilotage.maps import Roadmap, RouteSettings, SchematicMap, build_atlas
 from pilotage.navigation.cost_to_go import cost_to_go
 
@@ -26,11 +25,11 @@ CORRIDOR = SchematicMap((Polyline.through([(0, 0), (30, 0), (30, 2), (0, 2)], cl
 
 def left_in(sketch, goal, closed=()):
     atlas = build_atlas(sketch, COARSE)
-    roads = Roadmap(atlas.cell_graph, RouteSettings())
-    return atlas, roads, cost_to_go(atlas, roads, goal, closed)
+    roadmap = Roadmap(atlas.cell_graph, RouteSettings())
+    return atlas, roadmap, cost_to_go(atlas, roadmap, goal, closed)
 
 
-def hypotheses(*poses, scale=1.0):
+def particles(*poses, scale=1.0):
     return np.array([(x, y, heading, math.log(scale), 0.0, 0.0) for x, y, heading in poses]).T
 
 
@@ -38,20 +37,20 @@ def hypotheses(*poses, scale=1.0):
     ("sketch", "goal"), [(flat(), (8.0, 5.0)), (flat(30.0), (45.0, 30.0)), (RING, (18.5, 5.0))]
 )
 def test_what_is_left_is_what_the_route_costs(sketch, goal):
-    atlas, roads, left = left_in(sketch, goal)
+    atlas, roadmap, left = left_in(sketch, goal)
     places = atlas.range_table.places
-    free = shapely.union_all([cell.polygon for cell in roads.graph.cells])
+    free = shapely.union_all([cell.polygon for cell in roadmap.graph.cells])
     places = places[shapely.contains_xy(free, places)]  # not inside the ring's block
     places = places[np.random.default_rng(0).choice(len(places), 60)]
 
-    routes = [roads.find(tuple(place), goal).cost * roads.graph.diameter for place in places]
+    routes = [roadmap.find(tuple(place), goal).cost * roadmap.graph.diameter for place in places]
     cell = atlas.range_table.cell_size
     np.testing.assert_allclose(left.at(places), routes, rtol=0.02, atol=2.0 * cell)
 
 
 def test_behind_a_closed_gateway_no_way_leads():
-    atlas, roads, left = left_in(flat(), (8.0, 5.0))
-    shut = cost_to_go(atlas, roads, (8.0, 5.0), [gateway.gateway_id for gateway in roads.graph.gateways])
+    atlas, roadmap, left = left_in(flat(), (8.0, 5.0))
+    shut = cost_to_go(atlas, roadmap, (8.0, 5.0), [gateway.gateway_id for gateway in roadmap.graph.gateways])
     here, there = np.array([[1.5, 1.5]]), np.array([[9.0, 6.0]])
 
     assert np.isfinite(left.at(here)).all()
@@ -59,46 +58,44 @@ def test_behind_a_closed_gateway_no_way_leads():
     assert np.isfinite(shut.at(there)).all()
 
 
-def test_a_move_saves_what_it_comes_nearer_in_metres():
+def test_a_move_progresses_by_what_it_comes_nearer_in_metres():
     for scale in (1.0, 20.0):
         corners = scale * CORRIDOR.strokes[0].ring[:-1]
         _, _, left = left_in(SchematicMap((Polyline(corners, closed=True),)), (25.0 * scale, scale))
-        states = hypotheses((10.0 * scale, scale, 0.0), scale=scale)
+        states = particles((10.0 * scale, scale, 0.0), scale=scale)
 
-        saved = left.saved(np.array([(3.0, 0.0), (-4.0, 0.0), (0.0, 0.0)]), states)
+        progress = left.expected_progress(np.array([(3.0, 0.0), (-4.0, 0.0), (0.0, 0.0)]), states)
 
-        np.testing.assert_allclose(saved, [3.0, -4.0, 0.0], atol=0.4)
+        np.testing.assert_allclose(progress, [3.0, -4.0, 0.0], atol=0.4)
 
 
-def test_places_that_look_opposite_ways_save_nothing_on_average():
+def test_particles_that_look_opposite_ways_progress_by_nothing_on_average():
     _, _, left = left_in(CORRIDOR, (25.0, 1.0))
-    opposite = hypotheses((10.0, 1.0, 0.0), (10.0, 1.0, math.pi))
+    opposite = particles((10.0, 1.0, 0.0), (10.0, 1.0, math.pi))
 
-    np.testing.assert_allclose(left.saved(np.array([(3.0, 0.0), (-3.0, 0.0)]), opposite), 0.0, atol=0.4)
+    np.testing.assert_allclose(
+        left.expected_progress(np.array([(3.0, 0.0), (-3.0, 0.0)]), opposite), 0.0, atol=0.4
+    )
 
 
-def test_where_no_way_leads_to_the_goal_nothing_is_saved():
-    atlas, roads, _ = left_in(flat(), (8.0, 5.0))
-    shut = cost_to_go(atlas, roads, (8.0, 5.0), [gateway.gateway_id for gateway in roads.graph.gateways])
+def test_where_no_route_leads_to_the_goal_there_is_no_progress():
+    atlas, roadmap, _ = left_in(flat(), (8.0, 5.0))
+    shut = cost_to_go(atlas, roadmap, (8.0, 5.0), [gateway.gateway_id for gateway in roadmap.graph.gateways])
 
-    np.testing.assert_array_equal(shut.saved(np.array([(1.0, 0.5)]), hypotheses((1.5, 1.5, 0.0))), 0.0)
+    np.testing.assert_array_equal(
+        shut.expected_progress(np.array([(1.0, 0.5)]), particles((1.5, 1.5, 0.0))), 0.0
+    )
 
 
 @settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1))
-def test_no_move_saves_more_than_its_length(seed):
+def test_no_move_progresses_by_more_than_its_length(seed):
     rng = np.random.default_rng(seed)
     _, _, left = FLAT
     points = rng.uniform(-6.0, 6.0, (8, 2))
-    states = hypotheses(*rng.uniform((0.0, 0.0, -3.1), (10.0, 7.0, 3.1), (20, 3)))
+    states = particles(*rng.uniform((0.0, 0.0, -3.1), (10.0, 7.0, 3.1), (20, 3)))
 
-    assert (np.abs(left.saved(points, states)) <= np.hypot(*points.T) + 1e-9).all()
+    assert (np.abs(left.expected_progress(points, states)) <= np.hypot(*points.T) + 1e-9).all()
 
 
 FLAT = left_in(flat(), (8.0, 5.0))
-
-
-def test_states_are_picked_as_often_as_they_weigh():
-    belief = Belief(np.arange(12.0).reshape(6, 2), np.log([3.0, 1.0]))
-
-    assert 6 == np.count_nonzero(belief.picked(8)[0] == 0.0)

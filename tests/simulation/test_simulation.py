@@ -176,7 +176,6 @@ def test_scans_are_taken_where_the_robot_has_moved_on():
         lambda: Movers(np.zeros((1, 2)), np.zeros((0, 4))),
         lambda: DriveSettings(speed=0.0),
         lambda: OdometrySettings(slip=-0.1),
-        lambda: OdometrySettings(persistence=0.0),
         lambda: RunSettings(scan_every=0.0),
         lambda: list(follow([(0, 0)], DriveSettings())),
     ],

@@ -111,14 +111,14 @@ def test_a_closed_door_stops_the_robot_and_an_open_one_does_not():
     assert 1 == simulator.collisions
 
 
-def test_a_door_waits_until_the_robot_is_out_of_its_way():
+def test_a_door_waits_until_the_robot_is_a_metre_off():
     door = Door(np.array([5.0, 0, 5, 4]), ((2.0, math.inf),))
     simulator = simulator_in(World(WALLS, doors=(door,)), Pose2(4.9, 2, 0))
     for _ in range(50):
         simulator.step(REST)
 
     assert 0 == len(simulator.closed_doors)
-    while simulator.world_from_base.x < 5.2:
+    while simulator.world_from_base.x < 6.1:
         simulator.step(Twist(0.3, 0.0))
     simulator.step(REST)
     assert 1 == len(simulator.closed_doors)

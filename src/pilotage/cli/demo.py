@@ -1,6 +1,5 @@
 """`pilotage demo`: a whole drive on what is packed with the package."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,12 +12,12 @@ from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.figures.recording import Recording
+    from pilotage.drives import Drive
     from pilotage.maps.routing.roadmap import Point
     from pilotage.worlds import PackedWorld
 
 MARK = ".pilotage-demo"
-"""A folder with this file in it was made by the demo, and may be made anew."""
+"""A folder with this file in it was made by the demo, and may be overwritten."""
 GOAL = "Ana"
 """Whom the robot visits: her room is at the other end of the floor."""
 
@@ -40,17 +39,17 @@ def demo(
     **Example:** `pilotage demo -o demo`
     """
     claim(output, [output / name for name in (JOURNAL, FIGURE, ANIMATION)], force=force)
-    from pilotage.evaluation.drive import set_out
+    from pilotage.drives import set_out
     from pilotage.io import open_map, open_world
     from pilotage.worlds import OFFICE
 
     sketch, building = open_map(OFFICE.quick), open_world(OFFICE.world)
     with busy("Reading the drawing"):
         navigator, simulator = set_out(sketch, building, GOAL, seed=seed)
-    driven = drive_and_record(sketch, building, navigator, simulator, output)
-    recording = replace(driven, true_goal=find_true_goal(driven, OFFICE))
-    typer.echo(f"{story(recording)} {truth(recording, OFFICE)}")
-    draw(recording, output, f'To "{GOAL}" in an office drawn from memory', moving=True)
+    driven = drive_and_record(building, navigator, simulator, output)
+    recorded = replace(driven, true_goal=find_true_goal(driven, OFFICE))
+    typer.echo(f"{story(recorded)} {truth(recorded, OFFICE)}")
+    draw(recorded, output, f'To "{GOAL}" in an office drawn from memory', moving=True)
     say(f"See {output / ANIMATION}, {output / FIGURE} and {output / JOURNAL}.")
 
 
@@ -70,23 +69,22 @@ def claim(folder: Path, files: Sequence[Path], *, force: bool) -> None:
         raise FileError(f"the folder cannot be made ({error.strerror})", folder) from error
 
 
-def find_true_goal(recording: "Recording", packed: "PackedWorld") -> "Point":
+def find_true_goal(recorded: "Drive", packed: "PackedWorld") -> "Point":
     """Carry the goal from the quick drawing of a packed building to the building."""
     import numpy as np
 
     from pilotage.evaluation.warp import read_warp
 
-    warp = read_warp(packed.quick.with_suffix(".json"), recording.sketch)
-    x, y = warp.world_from_sketch(np.array([recording.goal]))[0].tolist()
+    warp = read_warp(packed.quick.with_suffix(".json"), recorded.sketch)
+    x, y = warp.world_from_sketch(np.array([recorded.goal.point]))[0].tolist()
     return x, y
 
 
-def truth(recording: "Recording", packed: "PackedWorld") -> str:
+def truth(recorded: "Drive", packed: "PackedWorld") -> str:
     """Say where in a packed building the robot truly ended."""
     from pilotage.evaluation.rooms import read_world_rooms
 
-    assert recording.true_goal is not None
-    end = recording.scenes[-1].world_from_base.position
+    end = recorded.scenes[-1].world_from_base.position
     (room,) = read_world_rooms(packed.folder / "rooms.geojson").names_at(end[None])
     where = f'in the room called "{room}"' if room else "in no room"
-    return f"In truth it stands {where}, {math.dist(end, recording.true_goal):.1f} m from the marked place."
+    return f"In truth it stands {where}."

@@ -13,8 +13,7 @@ from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.evaluation.drive import Instant
-    from pilotage.figures.recording import Recording
+    from pilotage.drives import Drive, Instant
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.navigation import Navigator, Step
     from pilotage.simulation import Scene, Simulator, World
@@ -26,38 +25,32 @@ EVERY = 5.0
 
 
 def drive_and_record(
-    sketch: "SchematicMap",
-    world: "World",
-    navigator: "Navigator",
-    simulator: "Simulator",
-    folder: Path | None,
-) -> "Recording":
+    world: "World", navigator: "Navigator", simulator: "Simulator", folder: Path | None
+) -> "Drive":
     """Drive to the end; the journal grows in the folder, if there is one."""
-    from pilotage.evaluation.drive import drive
-    from pilotage.figures.recording import Recording
+    from pilotage.drives import Drive, drive
 
-    graph = navigator.roads.graph
-    with journal_in(folder, sketch) as write:
-        steps, scenes = follow(drive(navigator, simulator), graph, write)
-    return Recording(sketch, world, navigator.goal, steps, scenes, graph)
+    atlas, goal = navigator.planner.atlas, navigator.planner.goal
+    with journal_in(folder, atlas.sketch) as write:
+        instants = follow(drive(navigator, simulator), navigator.planner.graph, write)
+    return Drive.of(atlas, world, goal, instants)
 
 
 def follow(
     instants: "Iterable[Instant]", graph: "CellGraph", write: "Callable[[Step, Scene], None]"
-) -> "tuple[list[Step], list[Scene]]":
+) -> "list[Instant]":
     """Go through a drive, each step shown and written as it comes; Ctrl-C ends it where it is."""
-    steps, scenes = [], []
+    gathered = []
     with progress(graph) as show:
         try:
             for instant in instants:
-                steps.append(instant.step)
-                scenes.append(instant.scene)
+                gathered.append(instant)
                 write(instant.step, instant.scene)
                 show(instant.step)
         except KeyboardInterrupt:
-            if not steps:
+            if not gathered:
                 raise
-    return steps, scenes
+    return gathered
 
 
 @contextmanager
@@ -103,40 +96,49 @@ def make_folder(folder: Path, *, force: bool) -> None:
         raise FileError(f"the folder cannot be made ({error.strerror})", folder) from error
 
 
-def draw(recording: "Recording", folder: Path, title: str, *, moving: bool) -> None:
-    """Draw the drive, and let it move if that is wanted."""
+def draw(recorded: "Drive", folder: Path, title: str, *, moving: bool) -> None:
+    """Draw the drive, as an animation too if that is wanted."""
     from pilotage.figures.drive import drive_figure
     from pilotage.figures.style import save
 
     with busy("Drawing"):
-        save(drive_figure(recording, title), folder / FIGURE)
+        save(drive_figure(recorded, title), folder / FIGURE)
         if moving:
             from pilotage.figures.animation import animate
 
-            animate(recording, folder / ANIMATION)
+            animate(recorded, folder / ANIMATION)
 
 
-def story(recording: "Recording") -> str:
+def story(recorded: "Drive") -> str:
     """Say in plain words what happened."""
-    from pilotage.figures.words import clock, name_cell
+    from pilotage.figures.words import clock
     from pilotage.localization import Status
-    from pilotage.navigation import Outcome
 
-    last, scene = recording.steps[-1], recording.scenes[-1]
-    here = name_cell(last.estimate.cell_id, recording.graph)
-    effort = f"{recording.way:.0f} m and {clock(recording.times[-1])} minutes"
-    if last.outcome is Outcome.REACHED:
-        end = f"After {effort} the robot says that it stands at the goal, in {here}."
-    elif last.outcome is Outcome.GAVE_UP:
-        end = f"After {effort} the robot gave up: {last.reason}. It believes to be in {here}."
-    else:
-        end = f"The drive was stopped after {effort}. The robot believes to be in {here}."
-    located = [step.estimate.status is Status.LOCATED for step in recording.steps]
+    last, scene = recorded.steps[-1], recorded.scenes[-1]
+    located = [step.estimate.status is Status.LOCATED for step in recorded.steps]
     found = (
-        f"knew its place after {clock(recording.times[located.index(True)])}"
+        f"knew its place after {clock(recorded.times[located.index(True)])}"
         if any(located)
         else "never knew its place"
     )
     lost = {0: "", 1: ", lost it once"}.get(last.times_lost, f", lost it {last.times_lost} times")
     touched = {0: "nothing", 1: "something once"}.get(scene.collisions, f"things {scene.collisions} times")
-    return f"{end} It {found}{lost} and touched {touched}."
+    return f"{ending(recorded)} It {found}{lost} and touched {touched}."
+
+
+def ending(recorded: "Drive") -> str:
+    """Say how the drive ended, and where the robot believes to be."""
+    from pilotage.figures.words import clock, name_cell
+    from pilotage.navigation import Outcome
+
+    last, goal = recorded.steps[-1], recorded.goal
+    here = name_cell(last.estimate.cell_id, recorded.graph)
+    effort = f"{recorded.length:.0f} m and {clock(recorded.times[-1])} minutes"
+    if last.outcome is Outcome.REACHED:
+        where = f"in {here}" if goal.is_room else f"at the goal, in {here}"
+        return f"After {effort} the robot says that it stands {where}."
+    if last.outcome is Outcome.MISMATCH:
+        return f"After {effort} the robot gave up: {last.reason}."
+    if last.outcome is Outcome.GAVE_UP:
+        return f"After {effort} the robot gave up: {last.reason}. It believes to be in {here}."
+    return f"The drive was stopped after {effort}. The robot believes to be in {here}."

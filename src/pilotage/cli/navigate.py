@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
-from pilotage.cli.places import parse_pose, point_or_label, pose_on
+from pilotage.cli.places import finite_numbers, parse_pose
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
     from pilotage.config import Settings
+    from pilotage.drives.loop import Start
     from pilotage.geometry import Pose2
     from pilotage.maps import SchematicMap
     from pilotage.maps.routing.roadmap import Point
@@ -72,9 +73,11 @@ def navigate(
     the simulator knows the *world*.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
-    written in the drawing. With a folder it leaves *journal.jsonl*, an object a step, with what the robot
-    believed and did and, apart from it, the truth; *drive.png*, the drive on the drawing and in the world;
-    and *drive.gif*, the same as a moving picture.
+    written in the drawing, and the drive then ends anywhere in that room.
+
+    With a folder it leaves *journal.jsonl*, an object a step, with what the robot believed and did and, apart
+    from it, the truth; *drive.png*, the drive on the drawing and in the world; and *drive.gif*, an animation
+    of the same.
 
     **Examples:**
 
@@ -88,10 +91,10 @@ def navigate(
     sketch = open_map(drawing)
     building = open_world(world)
     target = goal_on(sketch, goal)
-    known = sketch.start if start is None else pose_on(sketch, start, "--start")
+    known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
     chosen = chosen_settings(settings, time_limit)
-    from pilotage.evaluation.drive import set_out
+    from pilotage.drives import set_out
     from pilotage.maps import NotEnclosedError
     from pilotage.simulation import StartError
 
@@ -113,27 +116,43 @@ def navigate(
             raise FileError(str(error), world) from error
     if output is not None:
         make_folder(output, force=force)
-    recording = drive_and_record(sketch, building, navigator, simulator, output)
-    told = story(recording)
+    recorded = drive_and_record(building, navigator, simulator, output)
+    told = story(recorded)
     typer.echo(told)
     if output is not None:
-        draw(recording, output, f"{drawing.name}: {told.split('. ')[0]}", moving=animation)
+        draw(recorded, output, f"{drawing.name}: {told.split('. ')[0]}", moving=animation)
         say(f"See {output}.")
 
 
 def check_positive(value: float | None, option: str) -> None:
-    """Refuse a number that must be positive and is not."""
+    """Reject a number that must be positive and is not."""
     if value is not None and not (math.isfinite(value) and value > 0.0):
         raise typer.BadParameter(f"it must be positive, got {value}", param_hint=option)
 
 
 def goal_on(sketch: "SchematicMap", words: str | None) -> "Point | str":
-    """Read the goal, or take the one that the drawing marks."""
+    """Read the goal as a point or a name, or take the point that the drawing marks; in the file's axes."""
     if words is not None:
-        return point_or_label(words, sketch)
+        numbers = finite_numbers(words)
+        return (numbers[0], numbers[1]) if len(numbers) == 2 else words
     if sketch.goal is None:
         raise typer.BadParameter("a drive needs a goal, the drawing marks none", param_hint="--goal")
-    return sketch.goal
+    return in_file(sketch, sketch.goal)
+
+
+def start_on(sketch: "SchematicMap", words: str | None) -> "Start | None":
+    """Read the start, or take the point that the drawing marks, if it does; in the file's axes."""
+    if words is not None:
+        return parse_pose(words, "--start")
+    return None if sketch.start is None else in_file(sketch, sketch.start)
+
+
+def in_file(sketch: "SchematicMap", point: "Point") -> "Point":
+    """Carry a point of the sketch to the axes of the drawing's file."""
+    import numpy as np
+
+    x, y = sketch.file_from_sketch(np.array([point]))[0].tolist()
+    return x, y
 
 
 def true_pose(words: str) -> "Pose2":
@@ -144,7 +163,7 @@ def true_pose(words: str) -> "Pose2":
 
 
 def chosen_settings(path: Path | None, time_limit: float | None) -> "Settings":
-    """Read settings, and let the command line have the last word."""
+    """Read settings; the time limit of the command line overrides theirs."""
     from dataclasses import replace
 
     from pilotage.config import Settings, read_settings

@@ -1,4 +1,4 @@
-"""A drive as a moving picture: what the robot believes beside what is true."""
+"""A drive as an animation: what the robot believes beside what is true."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
+from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
 from pilotage.figures.drive import draw_goal
-from pilotage.figures.recording import Recording
 from pilotage.figures.views import BelievedView, TrueView
 from pilotage.figures.words import clock, describe
 from pilotage.figures.world import draw_world
@@ -30,7 +30,7 @@ FREQUENT, RARE = 48, 80
 """Colors of the palette: so many of the most frequent as they are, so many for all others."""
 
 
-def animate(drive: Recording, path: Path | str) -> None:
+def animate(drive: Drive, path: Path | str) -> None:
     """Write a drive as an animated GIF, whole or not at all: no more than 200 frames, ten a second.
 
     On the left the drawing with all places held possible, the scan as it would lie there, the cell, the next
@@ -64,7 +64,7 @@ def common_palette(frames: Sequence[Image.Image]) -> Image.Image:
     return palette
 
 
-def render(drive: Recording, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
+def render(drive: Drive, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
     """Draw what stays once, and on it, frame by frame, what moves; yields (height, width, 3) of 0..255."""
     figure, left, right = open_stage(drive)
     canvas = FigureCanvasAgg(figure)
@@ -86,7 +86,7 @@ def render(drive: Recording, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
-def open_stage(drive: Recording) -> tuple[Figure, Axes, Axes]:
+def open_stage(drive: Drive) -> tuple[Figure, Axes, Axes]:
     """Lay out both pictures and draw all that never moves."""
     aspects = [style.proportion(*(high - low)) for low, high in drive.boxes]
     width = min(PANEL_WIDTH, TALLEST / max(aspects))
@@ -103,15 +103,15 @@ def open_stage(drive: Recording) -> tuple[Figure, Axes, Axes]:
         page.set_title(words, fontsize=style.TEXT, color=style.INK, loc="left", pad=5)
     draw_strokes(left, drive.sketch.strokes, linewidth=1.5)
     draw_labels(left, drive.sketch)
-    draw_goal(left, drive.goal)
+    draw_goal(left, drive.goal.point)
     draw_world(right, drive.world, linewidth=1.1)
     if drive.true_goal is not None:
         draw_goal(right, drive.true_goal)
     return figure, left, right
 
 
-def caption_of(drive: Recording, k: int) -> str:
-    """Say in a line what goes on at a step."""
+def caption_of(drive: Drive, k: int) -> str:
+    """Say in a line what happens at a step."""
     step, seconds = drive.steps[k], drive.times[k]
     if step.outcome is None:
         return describe(step, seconds, drive.graph)

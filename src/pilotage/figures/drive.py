@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
-from pilotage.figures.recording import Recording
 from pilotage.figures.trail import COLORS, LOCATED_WIDTH, LOST_WIDTH, STILL, draw_stretches, find_stretches
 from pilotage.figures.words import clock
 from pilotage.figures.world import draw_segments, draw_world
@@ -22,7 +22,7 @@ from pilotage.navigation import Step
 from pilotage.simulation import Scene
 
 JUMP = 0.04
-"""A step longer than this share of the drawing's diagonal is a change of mind, not a motion."""
+"""A step longer than this share of the drawing's diagonal is a jump of the estimate, not a motion."""
 PANEL_WIDTH, TALLEST = 6.4, 8.0  # [inches]
 FOOT = 0.8  # [inches] for the legend
 CLOCK = (10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 3600.0)  # [s] between marks of time
@@ -32,8 +32,8 @@ GUESSES = 8
 """Crosses on a stretch on which it was lost, about."""
 
 
-def drive_figure(drive: Recording, title: str = "") -> Figure:
-    """Draw a drive on the drawing and in the world, colored by what the robot was about.
+def drive_figure(drive: Drive, title: str = "") -> Figure:
+    """Draw a drive on the drawing and in the world, colored by behavior.
 
     Both pictures bear the same marks of time.
     """
@@ -59,8 +59,8 @@ def drive_figure(drive: Recording, title: str = "") -> Figure:
     return figure
 
 
-def draw_believed(axes: Axes, drive: Recording) -> None:
-    """Draw the way as claimed, the gateways passed and those found closed, first fix, end and goal."""
+def draw_believed(axes: Axes, drive: Drive) -> None:
+    """Draw the path as believed, the gateways passed and those found blocked, first fix, end and goal."""
     size, steps = drive.sketch.diagonal, drive.steps
     draw_strokes(axes, drive.sketch.strokes, linewidth=1.6)
     draw_labels(axes, drive.sketch)
@@ -75,19 +75,19 @@ def draw_believed(axes: Axes, drive: Recording) -> None:
     draw_marks(axes, drive.times, positions, located)
     if located.any():
         style.draw_ring(axes, positions[int(np.argmax(located))])
-    draw_goal(axes, drive.goal)
+    draw_goal(axes, drive.goal.point)
     style.draw_robot(axes, poses[-1], 0.03 * size)
 
 
 def draw_guesses(axes: Axes, ways: Sequence[Array]) -> None:
-    """Draw where it may have been while lost, some places of each way (n, 2)."""
+    """Draw where the robot may have been while lost: some points of each path (n, 2)."""
     thinned = [np.empty((0, 2)), *(way[:: max(1, len(way) // GUESSES)] for way in ways)]
     x, y = np.vstack(thinned).T
     axes.scatter(x, y, marker="x", s=13.0, color=style.ACCENT, alpha=0.4, linewidths=0.8, zorder=6)
 
 
-def draw_true(axes: Axes, drive: Recording) -> None:
-    """Draw the true way, and the people and closed doors as they were at the end."""
+def draw_true(axes: Axes, drive: Drive) -> None:
+    """Draw the true path, and the people and closed doors as they were at the end."""
     low, high = drive.boxes[1]
     size = float(np.hypot(*(high - low)))
     draw_world(axes, drive.world)
@@ -135,7 +135,7 @@ def passed_gateways(steps: Sequence[Step]) -> tuple[str, ...]:
 
 
 def draw_marks(axes: Axes, times: Array, positions: Array, shown: NDArray[np.bool_]) -> None:
-    """Mark round times (n,) [s] on a way (n, 2), the same ones whoever tells it."""
+    """Mark round times (n,) [s] on a way (n, 2), the same on both pictures."""
     every = next((gap for gap in CLOCK if times[-1] / gap <= MOST_MARKS), CLOCK[-1])
     for mark in np.arange(every, times[-1], every).tolist():
         k = int(np.searchsorted(times, mark))

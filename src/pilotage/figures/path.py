@@ -135,7 +135,7 @@ def draw_close_view(
     """Lay what the robot saw last over the drawing around it, in the estimate's own scale."""
     here = estimate.sketch_from_base
     draw_strokes(axes, sketch.strokes, linewidth=2.4)
-    draw_strokes(axes, [shape.moved(here) for shape in local_map], color=style.ACCENT, linewidth=1.4)
+    draw_strokes(axes, [shape.moved(here) for shape in local_map], color=style.ACCENT, linewidth=1.4)  # type: ignore[arg-type]
     reach = np.quantile(np.abs(np.vstack([shape.vertices for shape in local_map])), VIEWED_SHARE)
     half = here.scale * max(CLOSEST_VIEW, float(reach))
     axes.set_xlim(here.pose.x - half, here.pose.x + half)

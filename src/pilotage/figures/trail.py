@@ -1,4 +1,4 @@
-"""A drive as a line: cut where what the robot is about changes, and left open where belief jumps."""
+"""A drive as a line: cut where the behavior changes, and left open where the estimate jumps."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,6 +16,7 @@ from pilotage.navigation import Behavior, Step
 COLORS = {
     Behavior.LOOK_AROUND: "#e39b2d",
     Behavior.EXPLORE: "#c8553d",
+    Behavior.DRIVE_ON: "#d98c7a",
     Behavior.CROSS: style.TRAIL,
     Behavior.GO_THROUGH: "#4f9d69",
     Behavior.BACK_OUT: "#8a5a9e",
@@ -29,7 +30,7 @@ STILL = 0.002
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """A part of a drive on which the robot was about one thing, and located all along or lost all along."""
+    """A part of a drive of one behavior, located all along or lost all along."""
 
     first: int  # number of the step at its first point
     behavior: Behavior
@@ -43,7 +44,7 @@ class Stretch:
 
     @property
     def color(self) -> str:
-        """The color of what the robot was about."""
+        """The color of the behavior."""
         return COLORS[self.behavior]
 
 
@@ -60,7 +61,7 @@ def find_stretches(steps: Sequence[Step], positions: Array, jump: float = np.inf
 
 
 def draw_stretches(axes: Axes, stretches: Sequence[Stretch], still: float) -> None:
-    """Draw stretches in the colors of what the robot was about: thick where located, thin where lost.
+    """Draw stretches in the colors of their behaviors: thick where located, thin where lost.
 
     Those shorter than `still` [axes' units] become dots.
     """

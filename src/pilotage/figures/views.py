@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
+from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.cells import outline_of
 from pilotage.figures.drive import JUMP
-from pilotage.figures.recording import Recording
 from pilotage.figures.trail import Stretch, find_stretches
 from pilotage.geometry import Array
 from pilotage.localization import Status
@@ -30,7 +30,7 @@ FAINTEST = 0.2  # opacity of a place that is hardly possible
 class BelievedView:
     """On the drawing: the places held possible, the scan laid over it, cell, gateway, route, and way."""
 
-    def __init__(self, axes: Axes, drive: Recording) -> None:
+    def __init__(self, axes: Axes, drive: Drive) -> None:
         self.drive, self.size = drive, drive.sketch.diagonal
         self.roads = Roadmap(drive.graph, RouteSettings()) if drive.graph is not None else None
         positions = np.array([step.estimate.sketch_from_base.pose.position for step in drive.steps])
@@ -64,7 +64,7 @@ class BelievedView:
         """Draw an arrow for each place held possible, the fainter the less probable, the claimed one last."""
         rivals = step.estimate.hypotheses[1:]
         poses = [*(rival.sketch_from_base.pose for rival in rivals), step.estimate.sketch_from_base.pose]
-        shares = [*(rival.probability for rival in rivals), max(step.estimate.confidence, 0.3)]
+        shares = [*(rival.probability for rival in rivals), max(step.estimate.probability, 0.3)]
         self.robots.set_verts([style.arrow(pose, ROBOT * self.size) for pose in poses])
         opacities = [FAINTEST + (1.0 - FAINTEST) * share for share in shares]
         self.robots.set_facecolor([to_rgba(style.ACCENT, opacity) for opacity in opacities])
@@ -73,7 +73,7 @@ class BelievedView:
         """Draw the cell, the gateway that is next, and the route."""
         graph = roads.graph
         self.cell.set_path(outline_of(graph.cell(step.estimate.cell_id)))
-        self.route.set_data(*route_ahead(step, roads, self.drive.goal).T)
+        self.route.set_data(*route_ahead(step, roads, self.drive.goal.point).T)
         gateway = graph.gateway(step.gateway_id).segment if step.gateway_id else np.empty((0, 2))
         self.gateway.set_data(*gateway.T)
 
@@ -81,7 +81,7 @@ class BelievedView:
 class TrueView:
     """In the world: the robot, what its laser meets, people, closed doors, the way so far."""
 
-    def __init__(self, axes: Axes, drive: Recording) -> None:
+    def __init__(self, axes: Axes, drive: Drive) -> None:
         self.drive = drive
         low, high = drive.boxes[1]
         self.size = float(np.hypot(*(high - low)))

@@ -24,16 +24,20 @@ def name_cell(cell_id: str, graph: CellGraph | None) -> str:
 
 
 def describe(step: Step, seconds: float, graph: CellGraph | None) -> str:
-    """Say in a line what goes on so many seconds after the first step."""
+    """Say in a line what happens at a step, `seconds` after the first one."""
     words = [clock(seconds), step.behavior.value, describe_place(step, graph)]
-    words.append(f"cell {step.cell_belief:.2f}, place {step.estimate.confidence:.2f}")
+    words.append(f"cell {step.estimate.cell_probability:.2f}, place {step.estimate.probability:.2f}")
     if math.isfinite(step.distance):
         words.append(f"{step.distance:.0f} m to go")
     return "   ".join(words)
 
 
 def describe_place(step: Step, graph: CellGraph | None) -> str:
-    """Say where the robot believes to be, and where it goes from there."""
+    """Say where the robot believes to be, and which cell comes next."""
     here = name_cell(step.estimate.cell_id, graph)
-    where = f"in {here}" if step.estimate.status is Status.LOCATED else f"lost, perhaps in {here}"
+    where = {
+        Status.LOCATED: f"in {here}",
+        Status.LOST: f"lost, perhaps in {here}",
+        Status.MISMATCH: "the drawing does not fit",
+    }[step.estimate.status]
     return f"{where}, next {name_cell(step.next_cell_id, graph)}" if step.next_cell_id else where

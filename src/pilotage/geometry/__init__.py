@@ -1,5 +1,6 @@
 """Immutable values of the plane."""
 
+from pilotage.geometry.affine import Affine2
 from pilotage.geometry.angles import wrap_angle
 from pilotage.geometry.arrays import Array, frozen_array, frozen_points
 from pilotage.geometry.polyline import Polyline, segments_of
@@ -10,6 +11,7 @@ from pilotage.geometry.trajectory import Trajectory
 from pilotage.geometry.twist import Twist
 
 __all__ = [
+    "Affine2",
     "Array",
     "Polyline",
     "Pose2",

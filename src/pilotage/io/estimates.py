@@ -8,7 +8,7 @@ from typing import TextIO
 
 import numpy as np
 
-from pilotage.geometry import Similarity2
+from pilotage.geometry import Affine2
 from pilotage.io.files import replacing
 from pilotage.localization import Estimate
 from pilotage.maps import SchematicMap
@@ -40,7 +40,7 @@ def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, objec
     }
 
 
-def place_record(sketch_from_base: Similarity2, sketch: SchematicMap) -> dict[str, float]:
+def place_record(sketch_from_base: Affine2, sketch: SchematicMap) -> dict[str, float]:
     """Return a place and a scale in the axes of the drawing's file."""
     pose = sketch_from_base.pose
     x, y = sketch.file_from_sketch(np.array([pose.position]))[0]

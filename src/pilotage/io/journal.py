@@ -1,4 +1,4 @@
-"""Write a drive as JSON Lines, one object a step: what was believed and done, and apart from it the truth."""
+"""Write a drive as JSON Lines, one object a step: what was believed and done, and the truth apart from it."""
 
 import json
 import math
@@ -19,17 +19,17 @@ Record = dict[str, object]
 def step_record(step: Step, scene: Scene, sketch: SchematicMap) -> Record:
     """Return a step as a line of the journal holds it.
 
-    The estimate stands as in a file of estimates, in the units and axes of the drawing's file. `cell_belief`
-    says how sure it is in which cell the robot is, `alignment_error` [m] where in it. `target` is in the
-    robot's own frame, ahead and to its left [m]. `truth` is in the frame of the world [m], y up. What is
-    unknown or endless is null.
+    The estimate is written as in a file of estimates, in the drawing's own units and axes.
+    `cell_probability` is the probability that the robot is in this cell, `position_std` [m] the standard
+    deviation of its position. `target` is in the robot's own frame, ahead and to its left [m]. `truth` is in
+    the frame of the world [m], y up. What is unknown or infinite is null.
     """
     return {
         **estimate_record(step.estimate, sketch),
         "stamp": round(step.stamp, 6),
         "behavior": step.behavior.value,
-        "cell_belief": rounded(step.cell_belief),
-        "alignment_error": finite(step.alignment_error),
+        "cell_probability": rounded(step.estimate.cell_probability),
+        "position_std": finite(step.estimate.position_std),
         "next_cell": step.next_cell_id,
         "gateway": step.gateway_id,
         "target": None if step.target is None else [rounded(value) for value in step.target],
@@ -49,7 +49,7 @@ def pose_record(pose: Pose2) -> dict[str, float]:
 
 
 def finite(value: float) -> float | None:
-    """Round a number; None if it is endless or none at all: JSON has no word for that.
+    """Round a number; None if it is infinite or not a number, which JSON cannot hold.
 
     >>> finite(1.5), finite(math.inf)
     (1.5, None)
@@ -59,7 +59,7 @@ def finite(value: float) -> float | None:
 
 @contextmanager
 def journal_file(path: Path | str, sketch: SchematicMap) -> Iterator[Callable[[Step, Scene], None]]:
-    """Open a journal; it appears whole when the block ends, and not at all if the block fails."""
+    """Open a journal; it is complete when the block ends, and absent if the block fails."""
     with replacing(path) as beside, beside.open("w", encoding="utf-8") as file:
 
         def write(step: Step, scene: Scene) -> None:

@@ -1,8 +1,9 @@
 """Where the robot is on the drawing: the only layer that knows scan and map (Wolter 2001, section 3.4)."""
 
 from pilotage.localization.alignment import AlignmentSettings
-from pilotage.localization.estimate import Estimate, EstimateSettings, Hypothesis, Status
+from pilotage.localization.estimate import EstimateSettings, Hypothesis, Status
 from pilotage.localization.localizer import Localizer, LocalizerSettings
+from pilotage.localization.pose_hypothesis import Estimate, PoseHypothesis
 from pilotage.localization.proposals import Prior
 from pilotage.localization.tracking import Drift, TrackingSettings
 from pilotage.localization.visibility import VisibilitySettings
@@ -15,6 +16,7 @@ __all__ = [
     "Hypothesis",
     "Localizer",
     "LocalizerSettings",
+    "PoseHypothesis",
     "Prior",
     "Status",
     "TrackingSettings",

@@ -20,6 +20,7 @@ class Status(Enum):
 
     LOCATED = "located"
     LOST = "lost"
+    MISMATCH = "mismatch"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2
+from pilotage.geometry import Affine2, Array, Pose2
 from pilotage.localization.alignment import (
     AlignmentSettings,
     View,
@@ -15,8 +15,8 @@ from pilotage.localization.alignment import (
     trust_in,
 )
 from pilotage.localization.belief import Belief
+from pilotage.localization.estimate import Estimate as RawEstimate
 from pilotage.localization.estimate import (
-    Estimate,
     EstimateSettings,
     Hypothesis,
     agreement,
@@ -31,6 +31,7 @@ from pilotage.localization.estimate import (
 )
 from pilotage.localization.incumbent import Incumbent, IncumbentSettings, gain_of, incumbent_at
 from pilotage.localization.placement import Placement, place_at
+from pilotage.localization.pose_hypothesis import Estimate, PoseHypothesis
 from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
 from pilotage.localization.tracking import TrackingSettings, predict, thin, weigh
 from pilotage.localization.visibility import Look, VisibilityModel, VisibilitySettings, look
@@ -86,7 +87,7 @@ class Localizer:
         settings: LocalizerSettings | None = None,
         *,
         seed: int = 0,
-        start: Pose2 | None = None,
+        start: Pose2 | tuple[float, ...] | None = None,
         scale: float | None = None,
     ) -> None:
         self.settings = settings if settings is not None else LocalizerSettings()
@@ -95,6 +96,11 @@ class Localizer:
         self._rng = np.random.default_rng(seed)
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
         tracking = self.settings.tracking
+        if isinstance(start, tuple):
+            x, y = self.atlas.sketch.sketch_from_file(np.array([start[:2]], dtype=np.float64))[0].tolist()
+            if len(start) == 2:
+                tracking = replace(tracking, prior=replace(tracking.prior, known_heading=math.pi))
+            start = Pose2(x, y, start[2] if len(start) > 2 else 0.0)
         if scale is not None:
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
             tracking = replace(
@@ -135,7 +141,42 @@ class Localizer:
             self._search()
             self._search_due = False
         self._motion = motion
-        return estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
+        raw = estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
+        self.estimate = self._offered(raw)
+        return self.estimate
+
+    def _offered(self, raw: RawEstimate) -> Estimate:
+        """Offer an estimate."""
+        placement = self.placement
+        affine = Affine2.from_state(*placement.state.tolist())
+        a, b = placement.axis.tolist()
+        leading = PoseHypothesis(raw.cell_id, affine, raw.hypotheses[0].probability, placement.spread, (a, b))
+        others = tuple(
+            PoseHypothesis(
+                one.cell_id,
+                Affine2(
+                    one.sketch_from_base.scale * one.sketch_from_base.pose.rotation,
+                    one.sketch_from_base.pose.position,
+                ),
+                one.probability,
+            )
+            for one in raw.hypotheses[1:]
+        )
+        graph, pose, y_down = self.atlas.cell_graph, affine.pose, self.atlas.sketch.y_down
+        label = graph.cell(raw.cell_id).label if graph is not None and raw.cell_id else ""
+        return Estimate(
+            raw.stamp, raw.status, (leading, *others), self.belief_in(raw.cell_id), 1.0, label or raw.cell_id,
+            pose.x, -pose.y if y_down else pose.y, pose.theta, affine.scale, y_down, raw.confidence,
+        )  # fmt: skip
+
+    def sample(self, count: int) -> Array:
+        """Pick equally probable particles, (6, count)."""
+        return self.believed.picked(count)
+
+    @property
+    def scan_matcher(self) -> PerceptionMap:
+        """The state of scan matching."""
+        return self.perception_map
 
     @property
     def placement(self) -> Placement:

@@ -1,7 +1,7 @@
-"""What is left of the way to the goal from everywhere on the drawing, and what a move is worth under belief.
+"""The cost of the route to the goal from everywhere on the drawing, and the expected progress of a move.
 
 While several places are possible, a move is worth what it saves on average over them (Q-MDP: Littman,
-Cassandra and Kaelbling 1995). Where they agree on the way, the robot need not know which of them it is at.
+Cassandra and Kaelbling 1995). If they agree on the direction, the robot need not know which is true.
 """
 
 import math
@@ -11,51 +11,57 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array
-from pilotage.localization.belief import LOG_SCALE, X, Y, stretched
 from pilotage.maps import Atlas, Roadmap
 from pilotage.maps.range_table import RangeTable
 from pilotage.maps.routing.roadmap import Point
 
+X, Y, HEADING, LOG_SCALE = range(4)
+"""Rows of the states of particles."""
+
 
 @dataclass(frozen=True, eq=False)
 class CostToGo:
-    """The cost of the way to the goal from each cell of the range table's grid."""
+    """The cost of the route to the goal from each cell of the range table's grid."""
 
     table: RangeTable
-    costs: Array  # (columns * rows,) [drawing units of easy walking]; inf where no way leads
+    costs: Array  # (columns * rows,) [drawing units of easy walking]; inf where no route leads
 
     def at(self, points: Array) -> Array:
         """Look the cost up for points (n, 2) of the sketch, (n,)."""
         return np.asarray(self.costs[self.table.lines_at(points)])
 
-    def saved(self, points: Array, states: Array) -> Array:
-        """Average over hypotheses (6, m) how much nearer the goal is from points than from here, (n,) [m].
+    def expected_progress(self, points: Array, states: Array) -> Array:
+        """Average over particles (6, m) how much nearer the goal is from points than from here.
 
-        Points (n, 2) are in the robot's frame [m]. Where no way leads to the goal nothing is saved. No move
-        saves or loses more than its length: if it seems to, it leads through a drawn wall.
+        Points (n, 2) are in the robot's frame [m]; returns (n,) [m]. Particles without a route to the goal
+        make no progress.
+        The progress of a move is at most its length: if it seems longer, the move leads through a drawn wall.
         """
+        from pilotage.kernels.displacement import displace
+
         here = self.at(states[[X, Y]].T)
-        saved = np.zeros(len(points))
+        progress = np.zeros(len(points))
+        ones = np.ones(states.shape[1])
         for index, (x, y) in enumerate(points):
-            there = self.at((states[[X, Y]] + stretched(states, x, y)).T)
+            there = self.at((states[[X, Y]] + displace(states, x * ones, y * ones)).T)
             leads = np.isfinite(here) & np.isfinite(there)
             nearer = (here[leads] - there[leads]) / np.exp(states[LOG_SCALE, leads])
-            saved[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()
-        return np.asarray(saved / states.shape[1])
+            progress[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()
+        return np.asarray(progress / states.shape[1])
 
 
-def cost_to_go(atlas: Atlas, roads: Roadmap, goal: Point, closed: Collection[str] = ()) -> CostToGo:
-    """Find what is left of the way from everywhere to a goal of the sketch, not through `closed` gateways.
+def cost_to_go(atlas: Atlas, roadmap: Roadmap, goal: Point, blocked: Collection[str] = ()) -> CostToGo:
+    """Find the cost of the route from everywhere to a goal of the sketch, not through `blocked` gateways.
 
-    From each place of a cell the way leads straight to an exit in sight: a gateway, a corner, the goal. Where
-    the grid is too coarse to see any, all count.
+    From each place of a cell the route leads straight to an exit in sight: a gateway, a corner, the goal.
+    Where the grid is too coarse to see any, all count.
     """
-    table, graph = atlas.range_table, roads.graph
+    table, graph = atlas.range_table, roadmap.graph
     costs = np.full(len(table.middles), np.inf)
-    exits = roads.exits_to(goal, closed)
+    exits = roadmap.exits_to(goal, blocked)
     for number, cell in enumerate(graph.cells):
         inside = np.flatnonzero(atlas.cell_indices == number)
-        price = roads.settings.walking(cell.size)
+        price = roadmap.settings.walking(cell.size)
         in_sight = np.full(len(inside), np.inf)
         for point, left in exits[cell.cell_id]:
             cost = price * np.hypot(*(table.middles[inside] - point).T) + left * graph.diameter

@@ -1,4 +1,7 @@
-"""From a way to a command: steer for a point ahead, no faster than one can stop."""
+"""From a path to a command: pure pursuit of a look-ahead point, no faster than the robot can stop.
+
+A command is tried on the arc that it leads to (dynamic window approach, Fox, Burgard and Thrun 1997).
+"""
 
 import math
 from dataclasses import dataclass
@@ -6,82 +9,87 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array, Twist
+from pilotage.navigation.local_grid import CLEARANCE
 
 
 @dataclass(frozen=True, slots=True)
 class SteeringSettings:
-    """How fast the robot may move, and how far it stays off things."""
+    """How fast the robot may move, and how well it brakes."""
 
-    speed: float = 0.8  # [m/s]
-    turn_rate: float = 1.2  # [rad/s]
-    braking: float = 0.8  # [m/s2] that it can be sure of
-    delay: float = 0.2  # [s] from a scan to wheels that obey
-    clearance: float = 0.03  # [m] that the footprint stays off things
-    look_ahead: float = 0.6  # [m] how far along the way it steers for
-    pivot: float = math.radians(45.0)  # a turn wider than this is made on the spot
-    gain: float = 2.5  # [1/s] turn rate for each radian of bearing
+    speed: float = 0.8  # [m/s] fastest speed
+    turn_rate: float = 1.2  # [rad/s] fastest turn
+    braking: float = 0.8  # [m/s2] deceleration that the robot can rely on
+    delay: float = 0.2  # [s] from a scan until the wheels obey
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
-        for name in ("speed", "turn_rate", "braking", "look_ahead", "pivot", "gain"):
+        """Reject invalid settings."""
+        for name in ("speed", "turn_rate", "braking"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-        for name in ("delay", "clearance"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
+        if not self.delay >= 0.0:
+            raise ValueError(f"delay must be >= 0 s, got {self.delay}")
 
 
 SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
-"""Of the speed, and of the distance to steer for, so much is tried, in order."""
+"""Shares of the fastest speed, and of the look-ahead distance, that are tried in order."""
+
+LOOK_AHEAD = 0.6
+"""Distance [m] along the path of the point that the robot steers for."""
+
+PIVOT = math.radians(45.0)
+"""A turn wider than this [rad] is made on the spot."""
+
+GAIN = 2.5
+"""Turn rate for each radian of bearing [1/s]."""
 
 SLOW = 0.02
-"""[m/s] from which on a robot counts as moving: wheels slip."""
+"""Speed [m/s] above which a robot counts as moving: wheels slip."""
 
 STILL = Twist(0.0, 0.0)
 
 
 def steer(
-    way: Array,
-    things: Array,
+    path: Array,
+    obstacles: Array,
     radius: float,
     settings: SteeringSettings,
     moving: Twist = STILL,
     *,
     sight: float = math.inf,
 ) -> Twist:
-    """Follow a way (k, 2) among things (n, 2), both in the robot's frame [m], safely for a disc of `radius`.
+    """Follow a path (k, 2) among obstacles (n, 2) with a body of `radius`, all in the robot's frame [m].
 
-    `moving` is how the robot moves now, `sight` how far it sees [m]: what is farther away is not known to be
-    free. Stands still, or turns on the spot, where moving on would not be safe; one that moves brakes on its
-    arc before it turns on the spot, for that arc was found free.
+    `moving` is how the robot moves now, `sight` how far it sees [m]: farther away may be obstacles.
+    Where no forward command is safe, the robot stands or turns on the spot. A robot that moves first brakes
+    on its arc, which was found free.
     """
-    ahead = point_ahead(way, things, radius + settings.clearance, settings.look_ahead)
+    ahead = lookahead_point(path, obstacles, radius + CLEARANCE, LOOK_AHEAD)
     bearing = math.atan2(ahead[1], ahead[0])
-    angular = max(-settings.turn_rate, min(settings.turn_rate, settings.gain * bearing))
-    if abs(bearing) <= settings.pivot:
-        to_end = float(np.hypot(*(way[-1] - way[0])))  # as the crow flies
+    angular = max(-settings.turn_rate, min(settings.turn_rate, GAIN * bearing))
+    if abs(bearing) <= PIVOT:
+        to_end = float(np.hypot(*(path[-1] - path[0])))
         fastest = min(settings.speed * math.cos(bearing) ** 2, math.sqrt(2.0 * settings.braking * to_end))
-        slowest = moving.linear - settings.braking * settings.delay / 2.0  # no robot slows down at once
+        slowest = moving.linear - settings.braking * settings.delay / 2.0  # no robot slows down instantly
         for share in SHARES:
             command = Twist(share * fastest, share * angular)
             braking = Twist(max(command.linear, slowest), command.angular)
-            if is_safe(braking, things, radius, settings, sight=sight):
+            if can_stop(braking, obstacles, radius, settings, sight=sight):
                 return command
     return turn_on_the_spot(angular, moving)
 
 
 def turn_on_the_spot(angular: float, moving: Twist) -> Twist:
-    """Turn [rad/s] once the robot stands; until then brake on the arc that it is on: it was found free."""
+    """Turn [rad/s] once the robot stands; until then brake on its present arc, which was found free."""
     return Twist(0.0, moving.angular if moving.linear > SLOW else angular)
 
 
-def point_ahead(way: Array, things: Array, room: float, distance: float) -> Array:
-    """Find the farthest point of a way, up to a distance, with so much room on the line to it, (2,)."""
-    near = things[np.hypot(things[:, 0], things[:, 1]) < distance + room]
-    away = np.hypot(way[:, 0], way[:, 1])
+def lookahead_point(path: Array, obstacles: Array, room: float, distance: float) -> Array:
+    """Find the farthest point of a path, up to a distance, with this room [m] on the line to it, (2,)."""
+    near = obstacles[np.hypot(obstacles[:, 0], obstacles[:, 1]) < distance + room]
+    away = np.hypot(path[:, 0], path[:, 1])
     for share in SHARES:
         far = np.flatnonzero(away >= share * distance)
-        point = way[far[0]] if len(far) else way[-1]
+        point = path[far[0]] if len(far) else path[-1]
         along = np.clip(near @ point / max(float(point @ point), 1e-9), 0.0, 1.0)
         gaps = np.hypot(*(near - along[:, np.newaxis] * point).T)
         now = np.hypot(near[:, 0], near[:, 1])
@@ -90,31 +98,30 @@ def point_ahead(way: Array, things: Array, room: float, distance: float) -> Arra
     return np.asarray(point)
 
 
-def is_safe(
-    command: Twist, things: Array, radius: float, settings: SteeringSettings, *, sight: float = math.inf
+def can_stop(
+    command: Twist, obstacles: Array, radius: float, settings: SteeringSettings, *, sight: float = math.inf
 ) -> bool:
-    """Tell whether a disc that obeys a command can still stop before it touches any of the things (n, 2).
+    """Tell whether a robot that obeys a command can still stop before it touches any obstacle (n, 2).
 
-    It must come to a stop within its `sight` [m], whatever waits behind.
-
-    One that is too near to something already may move on as long as it comes no nearer.
+    It must come to a stop within its `sight` [m]. A robot that is too near to an obstacle already may move as
+    long as it comes no nearer.
     """
-    path = braking_path(command, settings)
-    reach = float(np.hypot(*path[-1])) + radius + settings.clearance
-    if command.linear > SLOW and reach > sight:
+    arc = braking_path(command, settings)
+    extent = float(np.hypot(*arc[-1])) + radius + CLEARANCE
+    if command.linear > SLOW and extent > sight:
         return False
-    near = things[np.hypot(things[:, 0], things[:, 1]) < 2.0 * reach]
-    gaps = np.hypot(near[:, :1] - path[:, 0], near[:, 1:] - path[:, 1])
-    needed = np.minimum(radius + settings.clearance, np.hypot(near[:, 0], near[:, 1]))
+    near = obstacles[np.hypot(obstacles[:, 0], obstacles[:, 1]) < 2.0 * extent]
+    gaps = np.hypot(near[:, :1] - arc[:, 0], near[:, 1:] - arc[:, 1])
+    needed = np.minimum(radius + CLEARANCE, np.hypot(near[:, 0], near[:, 1]))
     return bool((gaps >= needed[:, np.newaxis] - 1e-9).all())
 
 
 def braking_path(command: Twist, settings: SteeringSettings) -> Array:
-    """List where a robot comes that obeys for the delay and then brakes, still turning, (k, 2) [m]."""
+    """List the positions of a robot that obeys for the delay and then brakes, still turning, (k, 2) [m]."""
     speed, braking = command.linear, settings.braking
     until = settings.delay + speed / braking
     times = np.linspace(0.0, until, max(3, math.ceil(until / 0.05)) + 1)
     speeds = np.clip(speed - braking * np.maximum(times - settings.delay, 0.0), 0.0, speed)
-    ways = (speeds[1:] + speeds[:-1]) / 2.0 * np.diff(times)
+    lengths = (speeds[1:] + speeds[:-1]) / 2.0 * np.diff(times)
     headings = command.angular * (times[1:] + times[:-1]) / 2.0
-    return np.column_stack([np.cumsum(ways * np.cos(headings)), np.cumsum(ways * np.sin(headings))])
+    return np.column_stack([np.cumsum(lengths * np.cos(headings)), np.cumsum(lengths * np.sin(headings))])

@@ -1,14 +1,12 @@
 """True walls, noisy beams, drifting odometry."""
 
 from pilotage.simulation.body import BodySettings
-from pilotage.simulation.doors import Door
 from pilotage.simulation.laser import LaserSettings, sense
-from pilotage.simulation.movers import Movers
 from pilotage.simulation.odometry import OdometrySettings, Wheels
 from pilotage.simulation.people import WALKING_SPEED, Person
 from pilotage.simulation.robot import DriveSettings, Moment, follow, reckon
 from pilotage.simulation.run import Run, RunSettings, simulate
-from pilotage.simulation.scene import Scene
+from pilotage.simulation.scene import Door, Movers, Scene
 from pilotage.simulation.simulator import Simulator, SimulatorSettings, StartError
 from pilotage.simulation.starting import find_start
 from pilotage.simulation.ways import Way

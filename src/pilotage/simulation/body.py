@@ -17,7 +17,7 @@ class BodySettings:
     turn_acceleration: float = 4.0  # [rad/s²] at most
 
     def __post_init__(self) -> None:
-        """Refuse a robot that cannot move."""
+        """Reject invalid settings."""
         for name in self.__slots__:
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")

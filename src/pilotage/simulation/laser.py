@@ -7,7 +7,7 @@ import numpy as np
 
 from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan
-from pilotage.simulation.movers import NOBODY, Movers
+from pilotage.simulation.scene import NOBODY, Movers
 from pilotage.simulation.world import World
 
 
@@ -25,7 +25,7 @@ class LaserSettings:
     base_from_laser: Pose2 = field(default_factory=Pose2.identity)
 
     def __post_init__(self) -> None:
-        """Refuse a scanner that cannot be built."""
+        """Reject invalid settings."""
         if self.beams < 2:
             raise ValueError(f"beams must be at least 2, got {self.beams}")
         if not 0.0 < self.field_of_view <= math.tau:

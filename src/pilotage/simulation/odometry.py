@@ -7,6 +7,9 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2
 
+PERSISTENCE = 2.0
+"""Distance [m] over which an error of the wheels lasts: a wheel that slips goes on slipping there."""
+
 
 @dataclass(frozen=True, slots=True)
 class OdometrySettings:
@@ -15,15 +18,12 @@ class OdometrySettings:
     slip: float = 0.07  # standard deviation of the error of a way driven, as a share of it
     drift: float = math.radians(2.5)  # [rad/m] standard deviation of the error of the heading
     turn_slip: float = 0.05  # standard deviation of the error of a turn, as a share of it
-    persistence: float = 2.0  # [m] over which an error lasts
 
     def __post_init__(self) -> None:
-        """Refuse negative errors."""
+        """Reject invalid settings."""
         for name in ("slip", "drift", "turn_slip"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0, got {getattr(self, name)}")
-        if not self.persistence > 0.0:
-            raise ValueError(f"persistence must be > 0 m, got {self.persistence}")
 
 
 class Wheels:
@@ -44,10 +44,10 @@ class Wheels:
         """Move on by a true motion in the robot's own frame."""
         way = math.hypot(move.x, move.y)
         self._station += way
-        while self._station >= self.settings.persistence:
-            self._station -= self.settings.persistence
+        while self._station >= PERSISTENCE:
+            self._station -= PERSISTENCE
             self._here, self._next = self._next, self._drawn()
-        share = self._station / self.settings.persistence
+        share = self._station / PERSISTENCE
         slip, drift, turn_slip = (1.0 - share) * self._here + share * self._next
         reported = Pose2(
             (1.0 + slip) * move.x, (1.0 + slip) * move.y, (1.0 + turn_slip) * move.theta + drift * way

@@ -29,7 +29,7 @@ class Person:
     radius: float = 0.25  # [m]
 
     def __post_init__(self) -> None:
-        """Refuse who cannot walk."""
+        """Reject a person that cannot walk."""
         for name in ("speed", "radius"):
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"a person's {name} must be > 0, got {getattr(self, name)}")

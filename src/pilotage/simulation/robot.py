@@ -23,7 +23,7 @@ class DriveSettings:
     time_step: float = 0.1  # [s]
 
     def __post_init__(self) -> None:
-        """Refuse a robot that cannot move."""
+        """Reject invalid settings."""
         for name in ("speed", "turn_rate", "look_ahead", "pivot", "time_step"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")

@@ -25,7 +25,7 @@ class RunSettings:
     scan_every_turn: float = 0.3  # [rad]
 
     def __post_init__(self) -> None:
-        """Refuse scans without end."""
+        """Reject invalid settings."""
         for name in ("scan_every", "scan_every_turn"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")

@@ -19,7 +19,7 @@ SKIN = 1e-6
 """The robot stops this far from what it touches [m], so that no rounding puts it inside."""
 
 APART = 0.01
-"""A contact is over once the robot is this far from all things [m]; the next one counts anew."""
+"""A contact is over once the robot is this far from all things [m]."""
 
 
 class StartError(PilotageError, ValueError):
@@ -38,7 +38,7 @@ class SimulatorSettings:
     time_step: float = 0.1  # [s]
 
     def __post_init__(self) -> None:
-        """Refuse time that does not pass."""
+        """Reject invalid settings."""
         if not self.time_step > 0.0:
             raise ValueError(f"time_step must be > 0 s, got {self.time_step}")
 
@@ -65,7 +65,7 @@ class Simulator:
         self.settings = settings
         self.world_from_base = start
         self.twist = Twist(0.0, 0.0)  # how the robot moves now
-        self.collisions = 0  # contacts so far, each counted once
+        self.collisions = 0  # contacts until now, each counted once
         self._steps = 0
         self._touching = False
         self._reading: Reading | None = None

@@ -1,4 +1,4 @@
-"""Where a robot may be put down when nobody says where."""
+"""Where a robot begins if its start is not given."""
 
 import math
 
@@ -10,9 +10,9 @@ from pilotage.simulation.simulator import StartError
 from pilotage.simulation.world import World
 
 MESH = 0.1
-"""Places are tried this far apart [m]."""
+"""Distance [m] between the places that are tried."""
 ROOM = 0.15
-"""So much room beside its body is left to a robot that is put down [m]."""
+"""Distance [m] of a start from walls, beside the radius of the robot."""
 
 
 def find_start(world: World, radius: float, rng: np.random.Generator) -> Pose2:

@@ -1,15 +1,18 @@
-"""All that moves in a building but the robot: people, and doors that wait for whoever stands in them."""
+"""All that moves in a building but the robot: people, and doors that wait for those who are near."""
 
 import numpy as np
 
 from pilotage.geometry import Array
-from pilotage.simulation.movers import Movers
 from pilotage.simulation.people import Walker
+from pilotage.simulation.scene import Movers
 from pilotage.simulation.world import World
+
+DOOR_ROOM = 0.8
+"""Distance [m] between a door and a body below which the door waits: nobody slams a door on a robot."""
 
 
 class Traffic:
-    """People under way and doors as they stand; `movers` is what is in the way now."""
+    """People and doors as they move; `movers` is where they are now."""
 
     def __init__(self, world: World, rng: np.random.Generator, robot: Array, robot_radius: float) -> None:
         self._doors = tuple(door for door in world.doors if door.closed)
@@ -33,7 +36,7 @@ class Traffic:
         self.movers = self._seen()
 
     def _close_doors(self, stamp: float, robot: Array) -> None:
-        """Follow the schedules, but close no door on a robot or a person."""
+        """Follow the schedules, but close no door on or right before a robot or a person."""
         from pilotage.kernels.contact import distance_to_segment
 
         bodies = [(robot, self._robot_radius)]
@@ -41,7 +44,9 @@ class Traffic:
         for k, door in enumerate(self._doors):
             self._is_closed[k] = door.should_be_closed(stamp) and (
                 self._is_closed[k]
-                or all(distance_to_segment(x, y, door.segment) > radius for (x, y), radius in bodies)
+                or all(
+                    distance_to_segment(x, y, door.segment) > radius + DOOR_ROOM for (x, y), radius in bodies
+                )
             )
 
     def _seen(self) -> Movers:

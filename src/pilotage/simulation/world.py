@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pilotage.geometry import Array, Pose2, frozen_array, frozen_points
 from pilotage.maps import SchematicMap
-from pilotage.simulation.doors import Door
 from pilotage.simulation.people import Person
+from pilotage.simulation.scene import Door
 from pilotage.simulation.ways import NO_WAY, Way, Ways
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class World:
     contours: bool = False
 
     def __post_init__(self) -> None:
-        """Copy and freeze the segments; refuse another shape and what is not finite."""
+        """Copy and freeze the segments; reject another shape and numbers that are not finite."""
         for name in ("segments", "glass"):
             segments = frozen_array(getattr(self, name))
             if segments.ndim != 2 or segments.shape[1] != 4:

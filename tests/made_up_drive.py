@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from pilotage.figures.recording import Recording
-from pilotage.geometry import Polyline, Pose2, Similarity2, Twist
-from pilotage.localization import Estimate, Hypothesis, Status
+from knowing import estimate_of, hypothesis_at
+from pilotage.drives import Drive
+from pilotage.geometry import Polyline, Pose2, Twist
+from pilotage.localization import Status
 from pilotage.maps import DecompositionSettings, SchematicMap, decompose
-from pilotage.navigation import Behavior, Outcome, Step
+from pilotage.navigation import Behavior, Goal, Outcome, Step
 from pilotage.perception import LaserScan
 from pilotage.simulation import Scene, World
 
@@ -25,9 +26,9 @@ def moment(k, *, x, lost=False, behavior=Behavior.CROSS, outcome=None):
     pose = Pose2(x, 2.5, 0.0)
     cell_id = GRAPH.cell_at((x, 2.5))
     status = Status.LOST if lost else Status.LOCATED
-    here = Similarity2(2.0, pose)
-    rivals = (Hypothesis(cell_id, here, 0.6), Hypothesis(FIRST, Similarity2(1.5, Pose2(2.0, 1.0, 3.0)), 0.3))
-    estimate = Estimate(0.1 * k, status, cell_id, here, 0.1 if lost else 0.9, rivals)
+    here = hypothesis_at(pose, scale=2.0, cell_id=cell_id, probability=0.1 if lost else 0.9)
+    other = hypothesis_at(Pose2(2.0, 1.0, 3.0), scale=1.5, cell_id=FIRST, probability=0.05)
+    estimate = estimate_of(here, other, stamp=0.1 * k, status=status)
     onwards = {"next_cell_id": SECOND, "gateway_id": GATEWAY.gateway_id} if cell_id == FIRST else {}
     step = Step(
         0.1 * k, Twist(0.5, 0.0), behavior, estimate, distance=(GOAL[0] - x) / 2.0, outcome=outcome, **onwards
@@ -43,4 +44,4 @@ def through_the_door(count=60):
     moments += [moment(10 + k, x=1.0 + 8.0 * k / count) for k in range(count)]
     moments.append(moment(10 + count, x=9.0, behavior=Behavior.REST, outcome=Outcome.REACHED))
     steps, scenes = zip(*moments, strict=True)
-    return Recording(SKETCH, WORLD, GOAL, steps, scenes, GRAPH)
+    return Drive(SKETCH, WORLD, Goal(GOAL, SECOND), steps, scenes, graph=GRAPH)

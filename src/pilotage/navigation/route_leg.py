@@ -1,4 +1,4 @@
-"""Which way the drawing says: the next gateway, or the goal, as the robot would see it (Wolter 2001, 4.2)."""
+"""The next waypoint of the route: behind a gateway, around a bend, or the goal (Wolter 2001, 4.2)."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -6,32 +6,31 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from pilotage.geometry import Array
-from pilotage.localization.placement import Placement
+from pilotage.geometry import Affine2, Array
 from pilotage.maps import CellGraph, Gateway, Roadmap, Route
 from pilotage.maps.routing.roadmap import Point
 
 PASSED = 0.4
-"""A bend of the way is passed once the robot is so near [m]."""
+"""Distance [m] at which a bend of the route counts as passed."""
 
 BEYOND = (1.0, 0.7, 0.4, 0.2)
-"""How far behind a gateway, or around a bend, the robot heads [m]: as far as the drawing has room for."""
+"""Distances [m] of a waypoint behind a gateway or around a bend: the first for which the cell has room."""
 
 
 @dataclass(frozen=True, eq=False)
-class Leg:
-    """The route from here, and the next point of it to head for."""
+class RouteLeg:
+    """The route from here, and its next waypoint."""
 
     route: Route
-    way: Array  # (k >= 2, 2) in the robot's frame, from the robot to the goal [m]
-    point: Array  # (2,) in the robot's frame [m]: behind the next gateway or bend, or the goal
+    path: Array  # (k >= 2, 2) in the robot's frame, from the robot to the goal [m]
+    waypoint: Array  # (2,) in the robot's frame [m]: behind the next gateway or bend, or the goal
     gateway_id: str  # of the gateway that the point lies behind; empty for a bend or the goal
     middle: Array  # (2,) in the robot's frame [m]: the gateway's middle, the bend, or the goal
 
     @property
     def distance(self) -> float:
-        """The length of the way [m]."""
-        return float(np.hypot(*np.diff(self.way, axis=0).T).sum())
+        """The length of the path to the goal [m]."""
+        return float(np.hypot(*np.diff(self.path, axis=0).T).sum())
 
     @property
     def next_cell_id(self) -> str:
@@ -39,37 +38,51 @@ class Leg:
         return self.route.cell_ids[1] if len(self.route.cell_ids) > 1 else ""
 
 
-def lead(placement: Placement, roads: Roadmap, goal: Point, closed: Collection[str] = ()) -> Leg:
-    """Find the next point to head for from where the robot is believed to be.
+def next_waypoint(
+    sketch_from_base: Affine2, roadmap: Roadmap, goal: Point, blocked: Collection[str] = ()
+) -> RouteLeg:
+    """Find the next waypoint from where the robot believes to be.
 
-    Raises RouteError if no way leads to the goal through gateways that are not `closed`.
+    Raises RouteError if no route to the goal avoids the `blocked` gateways.
     """
-    graph = roads.graph
-    route = roads.find(inside(graph, placement.position), inside(graph, goal), closed)
-    way = placement.base_from_sketch(route.way)
-    way[0] = 0.0
-    away = np.hypot(way[:, 0], way[:, 1])
-    ahead = np.flatnonzero(away[1:-1] > PASSED) + 1
-    index = int(ahead[0]) if len(ahead) else len(way) - 1
+    graph = roadmap.graph
+    base_from_sketch = sketch_from_base.inverse()
+    x, y = sketch_from_base.translation.tolist()
+    route = roadmap.find(inside(graph, (x, y)), inside(graph, goal), blocked)
+    path = base_from_sketch @ route.way
+    path[0] = 0.0
+    index = next_stop(route, graph, path)
     gateway = gateway_at(route, graph, index)
     if gateway is None:
-        leg = way[min(index + 1, len(way) - 1)] - way[index]
-        length = float(np.hypot(*leg))
-        point = way[index] + leg * (min(BEYOND[0], length) / length if length > 0.0 else 0.0)
-        return Leg(route, way, point, "", way[index])
+        onward = path[min(index + 1, len(path) - 1)] - path[index]
+        length = float(np.hypot(*onward))
+        point = path[index] + onward * (min(BEYOND[0], length) / length if length > 0.0 else 0.0)
+        return RouteLeg(route, path, point, "", path[index])
     cell_id = cell_behind(route, gateway)
-    behind = point_behind(gateway, graph, cell_id, placement.scale)
-    return Leg(
+    behind = point_behind(gateway, graph, cell_id, sketch_from_base.scale)
+    return RouteLeg(
         route,
-        way,
-        placement.base_from_sketch(behind[np.newaxis])[0],
+        path,
+        (base_from_sketch @ behind[np.newaxis])[0],
         gateway.gateway_id,
-        placement.base_from_sketch(gateway.middle[np.newaxis])[0],
+        (base_from_sketch @ gateway.middle[np.newaxis])[0],
     )
 
 
+def next_stop(route: Route, graph: CellGraph, path: Array) -> int:
+    """Return the first vertex of the path that is not passed: a gateway, a bend farther off, else the goal.
+
+    A gateway is passed once the robot is in the cell behind it, and then the route does not hold it.
+    """
+    for index in range(1, len(path) - 1):
+        is_near = float(np.hypot(*path[index])) <= PASSED
+        if not is_near or gateway_at(route, graph, index) is not None:
+            return index
+    return len(path) - 1
+
+
 def inside(graph: CellGraph, point: Point) -> Point:
-    """Return the point itself if it lies in a cell, else the nearest that does."""
+    """Return the point itself if it lies in a cell, else the nearest point that does."""
     cell = graph.cell(graph.cell_at(point))
     place = shapely.Point(point)
     if cell.polygon.covers(place):
@@ -81,7 +94,7 @@ def inside(graph: CellGraph, point: Point) -> Point:
 
 
 def gateway_at(route: Route, graph: CellGraph, index: int) -> Gateway | None:
-    """Return the gateway that a vertex of the way is the middle of, or None for a bend or the goal."""
+    """Return the gateway at a vertex of the route, or None for a bend or the goal."""
     for gateway_id in route.gateway_ids:
         gateway = graph.gateway(gateway_id)
         if np.allclose(gateway.middle, route.way[index]):

@@ -1,4 +1,4 @@
-"""What is kept of the surroundings, and where a disc can go in them."""
+"""What is kept of the grid, and where a disc can go in them."""
 
 import math
 
@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from buildings import WALLS, scan_at
 from pilotage.geometry import Polyline, Pose2
-from pilotage.navigation.surroundings import Surroundings, SurroundingsSettings, densified
+from pilotage.navigation.local_grid import NO_RETURN, LocalGrid, densified
 from pilotage.perception import LaserScan
 from strategies import angles, poses
 
-SETTINGS = SurroundingsSettings(size=10.0)
+SIZE, CELL = 10.0, 0.05
 RADIUS = 0.2
 ALL_AROUND = {"beams": 720, "fov": math.tau * 719 / 720}
 BLIND = LaserScan(0.0, -1.0, 0.1, np.full(21, np.nan))
@@ -23,26 +23,26 @@ HERE = Pose2(1.5, 5.0, -1.2)
 
 def seen_from(pose, walls=WALLS, **laser):
     """Look once, where odometry is right."""
-    return Surroundings.unseen(SETTINGS).seen(scan_at(pose, walls=walls, **laser), pose)
+    return LocalGrid.unknown(SIZE).seen(scan_at(pose, walls=walls, **laser), pose)
 
 
-def evidence_at(surroundings, points):
+def evidence_at(grid, points):
     """Look points of odom up; 0 off the square."""
-    cells = surroundings.cells_at(points)
-    inside = ((cells >= 0) & (cells < surroundings.settings.count)).all(axis=1)
-    return np.where(inside, surroundings.evidence[tuple(np.where(inside[:, None], cells, 0).T)], 0), inside
+    cells = grid.cells_at(points)
+    inside = ((cells >= 0) & (cells < len(grid.evidence))).all(axis=1)
+    return np.where(inside, grid.evidence[tuple(np.where(inside[:, None], cells, 0).T)], 0), inside
 
 
 def test_things_stand_where_the_beams_ended():
     pose = Pose2(0.013, 0.017, 0.0) @ HERE  # no wall along the border of cells
     scan = scan_at(HERE, **ALL_AROUND)
-    surroundings = Surroundings.unseen(SETTINGS).seen(scan, pose)
+    grid = LocalGrid.unknown(SIZE).seen(scan, pose)
 
     ends = pose @ scan.points_in_base
-    seen, inside = evidence_at(surroundings, ends)
+    seen, inside = evidence_at(grid, ends)
     assert (seen[inside] > 0).all()
-    away = shapely.distance(shapely.MultiPoint(ends), shapely.points(surroundings.things))
-    assert surroundings.settings.cell > away.max()
+    away = shapely.distance(shapely.MultiPoint(ends), shapely.points(grid.obstacles))
+    assert grid.cell > away.max()
 
 
 def test_a_laser_that_is_mounted_anywhere_sees_the_same_things():
@@ -51,11 +51,11 @@ def test_a_laser_that_is_mounted_anywhere_sees_the_same_things():
     mounted = LaserScan(
         0.0, scan.angle_min, scan.angle_increment, scan.ranges, base_from_laser=base_from_laser
     )
-    surroundings = Surroundings.unseen(SETTINGS).seen(mounted, HERE)
+    grid = LocalGrid.unknown(SIZE).seen(mounted, HERE)
 
     walls = shapely.MultiLineString([wall.ring for wall in WALLS])
-    assert len(surroundings.things) > 100
-    assert surroundings.settings.cell > shapely.distance(walls, shapely.points(surroundings.things)).max()
+    assert len(grid.obstacles) > 100
+    assert grid.cell > shapely.distance(walls, shapely.points(grid.obstacles)).max()
 
 
 @given(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0), angles)
@@ -67,9 +67,9 @@ def test_what_was_seen_stays_where_it_is_while_the_square_moves_along(x, y, thet
     then, _ = evidence_at(before, grid)
     now, kept = evidence_at(after, grid)
     np.testing.assert_array_equal(now[kept], then[kept])
-    size, cell = SETTINGS.size, SETTINGS.cell
+    size, cell = SIZE, CELL
     assert evidence_at(after, np.array([[x, y]]))[1][0]
-    middle = after.middles(np.array([[SETTINGS.count // 2] * 2]))[0]
+    middle = after.middles(np.array([[round(SIZE / CELL) // 2] * 2]))[0]
     assert max(abs(middle - (x, y))) < size / 8.0 + cell
 
 
@@ -83,27 +83,27 @@ def test_looking_changes_nothing_that_was_there_before():
 
 @given(poses)
 def test_cells_and_their_middles_belong_together(pose):
-    surroundings = Surroundings.unseen(SETTINGS).seen(BLIND, pose)
-    cells = np.array([[0, 0], [5, 7], [SETTINGS.count - 1, 3]])
+    grid = LocalGrid.unknown(SIZE).seen(BLIND, pose)
+    cells = np.array([[0, 0], [5, 7], [round(SIZE / CELL) - 1, 3]])
 
-    np.testing.assert_array_equal(cells, surroundings.cells_at(surroundings.middles(cells)))
+    np.testing.assert_array_equal(cells, grid.cells_at(grid.middles(cells)))
 
 
 @given(st.floats(0.5, 3.0), st.floats(-1.3, 1.3), angles)
 def test_no_stripes_stay_unseen_between_the_beams(away, bearing, heading):
     turned = Pose2(4.0, 1.5, heading)
     scan = LaserScan(0.0, -math.pi / 2, math.pi / 180, np.full(181, 3.5))
-    surroundings = Surroundings.unseen(SETTINGS).seen(scan, turned)
+    grid = LocalGrid.unknown(SIZE).seen(scan, turned)
 
     point = turned @ np.array([[away * math.cos(bearing), away * math.sin(bearing)]])
-    assert evidence_at(surroundings, point)[0][0] < 0
+    assert evidence_at(grid, point)[0][0] < 0
 
 
 def test_nothing_is_seen_behind_a_laser_that_looks_ahead():
     scan = LaserScan(0.0, -math.pi / 2, math.pi / 180, np.full(181, 3.5))
-    surroundings = Surroundings.unseen(SETTINGS).seen(scan, Pose2.identity())
+    grid = LocalGrid.unknown(SIZE).seen(scan, Pose2.identity())
 
-    seen = surroundings.middles(np.argwhere(surroundings.evidence != 0))
+    seen = grid.middles(np.argwhere(grid.evidence != 0))
     assert -0.1 < seen[:, 0].min()
 
 
@@ -150,55 +150,55 @@ def test_what_does_not_come_back_is_free_for_a_while_unless_it_stands_alone():
     ranges[20:40] = np.inf
     ranges[120] = np.inf
     scan = LaserScan(0.0, -math.pi / 2, math.pi / 180, ranges)
-    surroundings = Surroundings.unseen(SETTINGS).seen(scan, Pose2.identity())
+    grid = LocalGrid.unknown(SIZE).seen(scan, Pose2.identity())
 
     def at(beam, away):
         direction = scan.directions[beam]
         point = np.array([[away * math.cos(direction), away * math.sin(direction)]])
-        return int(evidence_at(surroundings, point)[0][0])
+        return int(evidence_at(grid, point)[0][0])
 
-    assert at(30, SETTINGS.no_return - 0.2) < 0
-    assert 0 == at(30, SETTINGS.no_return + 0.2)
+    assert at(30, NO_RETURN - 0.2) < 0
+    assert 0 == at(30, NO_RETURN + 0.2)
     assert 0 == at(120, 0.97)
 
 
 def test_who_walks_away_is_no_thing_for_long():
     person = Polyline.through([(1.4, 3.0), (1.6, 3.0), (1.5, 3.2)], closed=True)
-    surroundings = Surroundings.unseen(SETTINGS)
+    grid = LocalGrid.unknown(SIZE)
     for walls in [(*WALLS, person)] * 20 + [WALLS] * 6:
-        surroundings = surroundings.seen(scan_at(HERE, walls=walls, **ALL_AROUND), HERE)
+        grid = grid.seen(scan_at(HERE, walls=walls, **ALL_AROUND), HERE)
 
-    assert 0.5 < np.hypot(*(surroundings.things - (1.5, 3.1)).T).min()
+    assert 0.5 < np.hypot(*(grid.obstacles - (1.5, 3.1)).T).min()
 
 
 @pytest.mark.parametrize("pose", [HERE, Pose2(6.5, 1.5, 2.0), Pose2(8.5, 5.0, 0.0)])
 def test_ways_lead_over_free_cells_from_the_robot_on_and_off_all_walls(pose):
-    surroundings = seen_from(pose, **ALL_AROUND)
-    reach = surroundings.reach(RADIUS)
+    grid = seen_from(pose, **ALL_AROUND)
+    reach = grid.reachable_set(RADIUS)
     returns = shapely.MultiPoint(pose @ scan_at(pose, **ALL_AROUND).points_in_base)
 
     assert len(reach.points) > 500
     for index in range(0, len(reach.points), len(reach.points) // 40):
-        way = reach.way_to(index)
+        way = reach.path_to(index)
         np.testing.assert_allclose(reach.points[index], way[-1])
-        assert SETTINGS.cell > np.hypot(*(way[0] - pose.position))
-        steps = np.diff(way, axis=0) / SETTINGS.cell
+        assert CELL > np.hypot(*(way[0] - pose.position))
+        steps = np.diff(way, axis=0) / CELL
         assert (np.abs(steps).max(axis=1, initial=0.0).round(6) == 1.0).all() or len(way) == 1
-        assert (evidence_at(surroundings, way)[0] < 0).all()
+        assert (evidence_at(grid, way)[0] < 0).all()
         assert RADIUS < returns.distance(shapely.MultiPoint(way))
 
 
 def test_a_way_is_as_long_as_it_costs_or_shorter():
-    reach = seen_from(HERE, **ALL_AROUND).reach(RADIUS)
+    reach = seen_from(HERE, **ALL_AROUND).reachable_set(RADIUS)
 
     for index in range(0, len(reach.points), len(reach.points) // 40):
-        length = np.hypot(*np.diff(reach.way_to(index), axis=0).T).sum()
+        length = np.hypot(*np.diff(reach.path_to(index), axis=0).T).sum()
         # a diagonal step counts 1.4, a little less than it is long
         assert 0.98 * length <= reach.lengths[index]
 
 
 def test_the_nearest_place_is_the_nearest_unless_the_way_or_the_place_itself_costs_more():
-    reach = seen_from(Pose2(2.0, 2.0, 0.0)).reach(0.2)
+    reach = seen_from(Pose2(2.0, 2.0, 0.0)).reachable_set(0.2)
     point = reach.points[reach.lengths.argmax()]
     west = reach.points[:, 0] < point[0]
 
@@ -206,10 +206,10 @@ def test_the_nearest_place_is_the_nearest_unless_the_way_or_the_place_itself_cos
         return np.hypot(*(reach.points[index] - point))
 
     free = np.zeros(len(west))
-    assert 0.0 == gap(reach.nearest(point, way=0.0, extra=free))
-    assert 0.1 < gap(reach.nearest(point, way=1.5, extra=free))
-    assert west[reach.nearest(point, way=0.0, extra=np.where(west, 0.0, 1.0))]
-    assert 0.0 == gap(reach.nearest(point, way=0.0, extra=np.where(west, 0.0, 0.01)))
+    assert 0.0 == gap(reach.nearest(point, path_cost=0.0, extra=free))
+    assert 0.1 < gap(reach.nearest(point, path_cost=1.5, extra=free))
+    assert west[reach.nearest(point, path_cost=0.0, extra=np.where(west, 0.0, 1.0))]
+    assert 0.0 == gap(reach.nearest(point, path_cost=0.0, extra=np.where(west, 0.0, 0.01)))
 
 
 def divided(gap):
@@ -224,9 +224,9 @@ def divided(gap):
 @pytest.mark.parametrize(("gap", "passes"), [(0.0, False), (0.3, False), (0.7, True)])
 def test_a_wall_is_gone_through_where_the_robot_fits(gap, passes):
     pose = Pose2(1.0, 2.0, 0.0)
-    surroundings = seen_from(pose, divided(gap), **ALL_AROUND)
-    reach = surroundings.reach(RADIUS)
-    free = surroundings.middles(np.argwhere(surroundings.evidence < 0))
+    grid = seen_from(pose, divided(gap), **ALL_AROUND)
+    reach = grid.reachable_set(RADIUS)
+    free = grid.middles(np.argwhere(grid.evidence < 0))
 
     assert (gap > 0.0) is bool((free[:, 0] > 3.2).any())
     assert passes is bool((reach.points[:, 0] > 3.0).any())
@@ -235,40 +235,27 @@ def test_a_wall_is_gone_through_where_the_robot_fits(gap, passes):
 
 
 def test_a_larger_robot_reaches_less():
-    surroundings = seen_from(HERE, **ALL_AROUND)
+    grid = seen_from(HERE, **ALL_AROUND)
     small, large = (
-        {tuple(cell) for cell in surroundings.reach(radius).cells.tolist()} for radius in (0.1, 0.3)
+        {tuple(cell) for cell in grid.reachable_set(radius).cells.tolist()} for radius in (0.1, 0.3)
     )
 
     assert large < small
 
 
 def test_a_robot_that_stands_at_a_wall_finds_a_way_off_it():
-    reach = seen_from(Pose2(1.0 + RADIUS, 2.0, 0.0), divided(0.0), **ALL_AROUND).reach(RADIUS)
-    at_wall = seen_from(Pose2(RADIUS + 0.005, 2.0, 0.0), divided(0.0), **ALL_AROUND).reach(RADIUS)
+    reach = seen_from(Pose2(1.0 + RADIUS, 2.0, 0.0), divided(0.0), **ALL_AROUND).reachable_set(RADIUS)
+    at_wall = seen_from(Pose2(RADIUS + 0.005, 2.0, 0.0), divided(0.0), **ALL_AROUND).reachable_set(RADIUS)
 
     assert 0.9 < len(at_wall.points) / len(reach.points)
-
-
-def test_the_rim_is_where_the_known_ends():
-    surroundings = seen_from(Pose2(1.0, 2.0, 0.0), divided(0.7))
-    reach = surroundings.reach(RADIUS)
-    rim = reach.points[reach.at_rim]
-
-    behind = Pose2(1.0, 2.0, 0.0).position[0]
-    assert len(rim) > 20
-    for around in np.array([(1, 0), (-1, 0), (0, 1), (0, -1)]) * SETTINGS.cell:
-        rest, _ = evidence_at(surroundings, reach.points[~reach.at_rim] + around)
-        assert (rest != 0).all()
-    assert (rim[:, 0] < behind + 0.1).any()
 
 
 @settings(max_examples=15)
 @given(poses)
 def test_where_the_robot_can_go_does_not_depend_on_the_frame(odom_from_world):
-    wide, scan = Surroundings.unseen(SurroundingsSettings(size=18.0)), scan_at(HERE, **ALL_AROUND)
-    here = wide.seen(scan, HERE).reach(RADIUS)
-    there = wide.seen(scan, odom_from_world @ HERE).reach(RADIUS)
+    wide, scan = LocalGrid.unknown(18.0), scan_at(HERE, **ALL_AROUND)
+    here = wide.seen(scan, HERE).reachable_set(RADIUS)
+    there = wide.seen(scan, odom_from_world @ HERE).reachable_set(RADIUS)
 
     assert math.isclose(len(here.points), len(there.points), rel_tol=0.05)
     back = odom_from_world.inverse() @ there.points
@@ -277,18 +264,6 @@ def test_where_the_robot_can_go_does_not_depend_on_the_frame(odom_from_world):
 
 
 def test_a_blind_robot_can_stay_where_it_is():
-    reach = Surroundings.unseen(SETTINGS).seen(BLIND, HERE).reach(RADIUS)
+    reach = LocalGrid.unknown(SIZE).seen(BLIND, HERE).reachable_set(RADIUS)
 
-    assert np.hypot(*(reach.points - HERE.position).T).min() < SETTINGS.cell
-
-
-@pytest.mark.parametrize("name", ["size", "cell", "ease"])
-def test_lengths_are_positive(name):
-    with pytest.raises(ValueError, match=f"{name} must be > 0 m"):
-        SurroundingsSettings(**{name: 0.0})
-
-
-@pytest.mark.parametrize("name", ["margin", "no_return"])
-def test_margins_are_not_negative(name):
-    with pytest.raises(ValueError, match=f"{name} must be >= 0 m"):
-        SurroundingsSettings(**{name: math.nan})
+    assert np.hypot(*(reach.points - HERE.position).T).min() < CELL

@@ -1,0 +1,44 @@
+"""Routes to the goal over the cells of the drawing, around the gateways that are blocked (4.2)."""
+
+from functools import lru_cache
+
+from pilotage.localization import Estimate
+from pilotage.maps import Atlas, Roadmap, RouteError, RouteSettings
+from pilotage.maps.routing.roadmap import Point
+from pilotage.navigation.blocked_gateways import BlockedGateways
+from pilotage.navigation.cost_to_go import CostToGo, cost_to_go
+from pilotage.navigation.goal import find_goal
+from pilotage.navigation.route_leg import RouteLeg, next_waypoint
+
+
+class RoutePlanner:
+    """Knows the drawing, its routes and the goal; raises as `find_goal` does."""
+
+    def __init__(self, atlas: Atlas, goal: Point | str, settings: RouteSettings) -> None:
+        self.atlas = atlas
+        self.goal = find_goal(atlas, goal)
+        assert atlas.cell_graph is not None  # else there is no goal
+        self.graph = atlas.cell_graph
+        self.roadmap = Roadmap(self.graph, settings)
+        self._cost_to_go = lru_cache(maxsize=1)(self._find_costs)
+
+    def leg(self, estimate: Estimate, blocked: BlockedGateways) -> tuple[RouteLeg | None, BlockedGateways]:
+        """Find the next waypoint; if all routes are blocked, all gateways are tried again."""
+        for candidate in (blocked, blocked.all_reopened()) if blocked.gateway_ids else (blocked,):
+            try:
+                leg = next_waypoint(
+                    estimate.sketch_from_base, self.roadmap, self.goal.point, candidate.gateway_ids
+                )
+            except RouteError:
+                blocked = candidate
+            else:
+                return leg, candidate
+        return None, blocked
+
+    def cost_to_go(self, blocked: BlockedGateways) -> CostToGo:
+        """Find the cost of the route from everywhere; kept while the same gateways are blocked."""
+        return self._cost_to_go(blocked.gateway_ids)
+
+    def _find_costs(self, blocked: tuple[str, ...]) -> CostToGo:
+        """Find the cost of the route from everywhere."""
+        return cost_to_go(self.atlas, self.roadmap, self.goal.point, blocked)

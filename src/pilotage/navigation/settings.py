@@ -1,0 +1,34 @@
+"""How the robot drives."""
+
+from dataclasses import dataclass, field
+
+from pilotage.maps import RouteSettings
+from pilotage.navigation.steering import SteeringSettings
+
+
+@dataclass(frozen=True, slots=True)
+class NavigatorSettings:
+    """The robot's size and speed, and when it acts, stops, tries something else or gives up."""
+
+    radius: float = 0.2  # [m] of the robot's footprint, a disc about its base
+    time_limit: float = 900.0  # [s] after which the robot gives up
+    act_on: float = 0.5  # probability of a pose from which on the robot drives by it
+    sure: float = 0.9  # probability of the place that it needs to stop at the goal
+    near: float = 0.2  # [m] to a goal that is a point
+    patience: float = 8.0  # [s] without getting away from a place before something else is tried
+    blocked_for: float = 300.0  # [s] for which a gateway that was found blocked is not tried again
+    mismatch_patience: float = 60.0  # [s] of mismatch between drawing and building before it gives up
+    steering: SteeringSettings = field(default_factory=SteeringSettings)
+    route: RouteSettings = field(default_factory=RouteSettings)
+
+    def __post_init__(self) -> None:
+        """Reject invalid settings."""
+        for name in ("radius", "time_limit", "near", "patience"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        for name in ("blocked_for", "mismatch_patience"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} must be >= 0 s, got {getattr(self, name)}")
+        for name in ("act_on", "sure"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ValueError(f"{name} must be in [0, 1], got {getattr(self, name)}")

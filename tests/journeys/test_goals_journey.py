@@ -1,0 +1,77 @@
+"""Whole drives on the packed buildings: to a room by its name, and by a drawing of another building."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pilotage import worlds
+from pilotage.config import Settings
+from pilotage.drives import Drive, drive, set_out
+from pilotage.evaluation.drive import Destination, score
+from pilotage.evaluation.rooms import read_world_rooms
+from pilotage.io import open_map, open_world
+from pilotage.localization import Localizer, Status
+from pilotage.navigation import Navigator, NavigatorSettings, Outcome
+from pilotage.simulation import Simulator, find_start
+
+SHORT = replace(Settings(), navigator=NavigatorSettings(time_limit=150.0))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("goal", ["Ana", "archive"])
+def test_a_room_that_is_named_is_reached_without_a_start(goal):
+    navigator, simulator = set_out(
+        open_map(worlds.OFFICE.careful), open_world(worlds.OFFICE.world), goal, seed=1, settings=SHORT
+    )
+    instants = list(drive(navigator, simulator))
+    told = Drive.of(navigator.planner.atlas, simulator.world, navigator.planner.goal, instants)
+    rooms = read_world_rooms(worlds.OFFICE.folder / "rooms.geojson")
+    room = rooms.polygons[rooms.names.index(goal)]
+    point = room.representative_point()
+    scored = score(told, Destination((point.x, point.y), room, is_room=True), shortest=10.0)
+
+    assert scored.reached, (scored.outcome, scored.reason, told.positions[-1])
+    assert 0 == scored.collisions
+    assert 3.0 < scored.way
+
+
+class Unfit(Localizer):
+    """Says that the drawing does not fit, as a localizer must once it has seen enough of another building."""
+
+    def update(self, scan, odometry):
+        self.estimate = replace(super().update(scan, odometry), status=Status.MISMATCH)
+        return self.estimate
+
+
+def by_a_drawing_of_another_building(kind, seconds):
+    """Drive in the office by a drawing of the house."""
+    sketch, world = open_map(worlds.HOME.careful), open_world(worlds.OFFICE.world)
+    rng = np.random.default_rng(0)
+    localizer = kind(sketch, SHORT.localizer, seed=0)
+    label = sketch.labels[0].text
+    navigator = Navigator(localizer, label, NavigatorSettings(time_limit=seconds, mismatch_patience=20.0))
+    simulator = Simulator(world, find_start(world, 0.2, rng), rng, SHORT.simulator)
+    instants = list(drive(navigator, simulator))
+    return Drive.of(navigator.planner.atlas, world, navigator.planner.goal, instants)
+
+
+@pytest.mark.slow
+def test_a_robot_that_knows_that_its_drawing_does_not_fit_says_so_and_has_looked_for_more():
+    told = by_a_drawing_of_another_building(Unfit, 60.0)
+
+    assert Outcome.MISMATCH is told.outcome
+    assert "this drawing does not fit this building" == told.reason
+    assert 3.0 < told.length
+    assert 0 == told.collisions
+
+
+@pytest.mark.slow
+@pytest.mark.skip(reason="the localizer does not tell yet that a drawing is of another building")
+def test_by_a_drawing_of_another_building_no_goal_is_ever_reached():
+    told = by_a_drawing_of_another_building(Localizer, 150.0)
+
+    assert Outcome.REACHED is not told.outcome
+    assert Status.MISMATCH in {step.estimate.status for step in told.steps}
+    assert 5.0 < told.length
+    assert 0 == told.collisions

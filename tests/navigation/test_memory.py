@@ -1,0 +1,114 @@
+"""What the robot keeps from plan to plan: each input changes in one place."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from knowing import estimate_at
+from pilotage.geometry import Pose2
+from pilotage.localization import Status
+from pilotage.maps import Route
+from pilotage.navigation.arrival import Arrival, Doubt
+from pilotage.navigation.memory import DETOUR, PLAN_EVERY, Memory
+from pilotage.navigation.plan import Plan
+from pilotage.navigation.route_leg import RouteLeg
+from pilotage.navigation.settings import NavigatorSettings
+from pilotage.navigation.step import Behavior
+from pilotage.perception import LaserScan
+
+SETTINGS = NavigatorSettings(patience=4.0)
+PATH = np.array([[0.0, 0.0], [2.0, 0.0]])
+LEG = RouteLeg(
+    Route(("c1", "c2"), ("g1",), 0.1, PATH), PATH, np.array([3.0, 0.0]), "g1", np.array([2.0, 0.0])
+)
+FRESH = Memory()
+WHERE = Arrival(1, Doubt.WHERE_IN_IT, math.inf)
+
+
+def standing(turned=0.0, **claim):
+    """Stand at the origin and claim something."""
+    return SimpleNamespace(
+        turned=turned, estimate=estimate_at(0.0, 0.0, **claim), odom_from_base=Pose2.identity()
+    )
+
+
+def lasting(plan, seconds, memory=FRESH, position=None):
+    """Keep to a plan and stay where the robot is."""
+    for k in range(round(seconds / PLAN_EVERY)):
+        memory = memory.updated(plan, k * PLAN_EVERY, position or standing(), SETTINGS)
+    return memory
+
+
+def test_a_stall_on_the_route_blocks_the_gateway_ahead_and_makes_the_robot_explore():
+    memory = lasting(Plan(Behavior.CROSS, path=PATH, leg=LEG), 4.5)
+
+    assert ("g1",) == memory.blocked.gateway_ids
+    assert 1 == memory.detours
+    assert 4.0 + DETOUR <= memory.detour_until < 4.5 + DETOUR
+
+
+def test_a_stall_while_exploring_gives_the_frontier_up():
+    memory = lasting(Plan(Behavior.EXPLORE, path=PATH), 4.5)
+
+    assert [[2.0, 0.0]] == memory.exploration.unreachable.tolist()
+    assert () == memory.blocked.gateway_ids
+
+
+def test_a_stall_while_driving_on_ends_the_doubt():
+    plan, memory = Plan(Behavior.DRIVE_ON, path=PATH), Memory(arrival=WHERE)
+
+    at = {"position": standing(position_std=2.0)}
+    assert Doubt.WHERE_IN_IT is lasting(plan, 3.0, memory, **at).arrival.doubt
+    assert Doubt.NONE is lasting(plan, 5.0, memory, **at).arrival.doubt
+
+
+@pytest.mark.parametrize("behavior", [Behavior.REST, Behavior.LOOK_AROUND, Behavior.BACK_OUT])
+def test_standing_where_nothing_was_tried_changes_nothing(behavior):
+    memory = lasting(Plan(behavior), 20.0)
+
+    assert (0, ()) == (memory.detours, memory.blocked.gateway_ids)
+    assert 0 == len(memory.exploration.unreachable)
+
+
+def test_the_target_is_the_end_of_the_path_while_the_robot_explores():
+    exploring = Memory().updated(Plan(Behavior.EXPLORE, path=PATH), 0.0, standing(), SETTINGS)
+    following = exploring.updated(Plan(Behavior.CROSS, path=PATH, leg=LEG), 0.3, standing(), SETTINGS)
+
+    assert [2.0, 0.0] == exploring.exploration.target.tolist()
+    assert following.exploration.target is None
+
+
+def test_a_doubt_is_kept_and_lets_a_robot_that_does_not_see_all_around_turn():
+    doubting = Plan(Behavior.LOOK_AROUND, arrival=WHERE)
+    memory = Memory(unseen_angle=3.0).updated(doubting, 0.0, standing(turned=2.0), SETTINGS)
+
+    assert memory.arrival == WHERE
+    assert math.isclose(5.0, memory.look_until)
+
+
+def test_a_doubt_ends_where_nothing_leads_on():
+    memory = Memory(arrival=WHERE)
+    followed = memory.updated(Plan(Behavior.CROSS, path=PATH, leg=LEG), 0.0, standing(), SETTINGS)
+
+    assert Doubt.NONE is followed.arrival.doubt
+
+
+def test_a_mismatch_is_timed_from_its_beginning_and_forgotten_at_its_end():
+    wrong, right = standing(status=Status.MISMATCH), standing()
+    plan = Plan(Behavior.EXPLORE, path=PATH)
+    memory = Memory().updated(plan, 5.0, wrong, SETTINGS).updated(plan, 6.0, wrong, SETTINGS)
+
+    assert 5.0 == memory.mismatch_since
+    assert math.inf == memory.updated(plan, 7.0, right, SETTINGS).mismatch_since
+
+
+@pytest.mark.parametrize(("beams", "unseen"), [(181, math.pi), (360, 0.0)])
+def test_a_robot_that_begins_lost_turns_by_what_its_scanner_leaves_out(beams, unseen):
+    scan = LaserScan(1.0, 0.0, math.radians(1.0), np.ones(beams))
+    known, lost = estimate_at(0.0, 0.0), replace(estimate_at(0.0, 0.0), status=Status.LOST)
+
+    assert unseen == pytest.approx(Memory.at_start(scan, lost).look_until)
+    assert 0.0 == Memory.at_start(scan, known).look_until
