@@ -1,6 +1,6 @@
 """Find the robot on drawings of six real buildings, episode by episode, and print how often it is right.
 
-    python benchmarks/localization.py [--json FILE] [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks localization [--json FILE] [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
 
 Each episode puts the robot down somewhere in the log of a building and takes the next 40 m of travel: no
 start, no heading, no scale. Scans in rooms that a drawing leaves out are not counted. Apart stand two

@@ -1,6 +1,6 @@
 """Drive to goals on drawings of buildings, and print how often the robot gets there.
 
-    python benchmarks/navigation.py [--json FILE] [--modes known,unknown,packed] [--buildings A,B]
+    python -m benchmarks navigation [--json FILE] [--modes known,unknown,packed] [--buildings A,B]
         [--hands A,B] [--pairs N] [--only K] [--jobs N] [--seed N] [--time-limit S]
         [--journal DIR] [--figure DIR]
 
@@ -18,9 +18,6 @@ Intervals are 95 % bootstrap intervals over drives.
 """
 
 import argparse
-import json
-import os
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -31,29 +28,42 @@ from itertools import product
 from multiprocessing import get_context
 from pathlib import Path
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import numpy as np
 
-from arguments import add_drawings, names_of, positive, seconds
-from drives import Job, Options, Result, make, sites
-from errands import choose_errands
+from benchmarks.lib.arguments import add_drawings, add_jobs, names_of, positive, seconds
+from benchmarks.lib.data import PACKED_HANDS, TUNED
+from benchmarks.lib.drives import Job, Options, Result, make, sites
+from benchmarks.lib.errands import choose_errands
+from benchmarks.lib.results import Figures
+from benchmarks.lib.sites import packed_site, real_site
 from pilotage.config import Settings
 from pilotage.evaluation.intervals import bootstrap_interval
-from pilotage.io.files import write_text
 from pilotage.worlds import ALL
-from sites import DATA, PACKED_HANDS, TUNED, packed_site, real_site
 
 MODES = {"known": "known_start", "unknown": "unknown_start", "packed": "packed"}
 
 Row = dict[str, object]
 
 
-def main() -> None:
-    """Make all drives and print the tables."""
-    arguments = parse()
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose drives, and what is kept of each."""
+    add_drawings(parser)
+    parser.add_argument(
+        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
+    )
+    parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
+    parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
+    add_jobs(parser)
+    parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
+    parser.add_argument("--time-limit", type=seconds, default=300.0, help="[s] (default: %(default)s)")
+    parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
+    parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Make all drives, print the tables, and return the figures."""
     settings = Settings()
-    navigator = replace(settings.navigator, time_limit=arguments.time_limit or settings.navigator.time_limit)
+    navigator = replace(settings.navigator, time_limit=arguments.time_limit)
     options = Options(
         arguments.seed, replace(settings, navigator=navigator), arguments.journal, arguments.figure
     )
@@ -65,34 +75,9 @@ def main() -> None:
         for mode in dict.fromkeys(job.mode for job in jobs)
     }
     print_reasons(results)
-    if arguments.json:
-        write_text(arguments.json, json.dumps(rows, indent=1) + "\n")
-    if any(result.complaint for result in results):
-        sys.exit(1)
-
-
-def parse() -> argparse.Namespace:
-    """Read the command line."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    add_drawings(parser)
-    parser.add_argument(
-        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
-    )
-    parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
-    parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
-    parser.add_argument(
-        "--jobs", type=positive, default=2, help="processes; 1 for honest times (default: %(default)s)"
-    )
-    parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
-    parser.add_argument("--time-limit", type=seconds, help="[s] after which the robot gives up")
-    parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
-    parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
-    arguments = parser.parse_args()
-    if set(arguments.modes) != {"packed"} and not DATA.is_dir():
-        parser.error("the data folder is not there: ../shared/data beside the repository")
-    return arguments
+    if complaints := [result.complaint for result in results if result.complaint]:
+        return {**rows, "failed": f"{len(complaints)} drives, the first: {complaints[0]}"}
+    return rows
 
 
 def plan(arguments: argparse.Namespace) -> Iterator[Job]:
@@ -256,7 +241,3 @@ def print_reasons(results: Sequence[Result]) -> None:
         print(f"\nHow drives ended, {MODES[mode].replace('_', ' ')}")
         for reason, count in endings.most_common():
             print(f"{count:6d}  {reason}")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,6 +1,6 @@
 """Carry belief along known ways, from a start that is marked, and print how far off it ends.
 
-    python benchmarks/tracking.py [--json FILE] [--buildings A,B] [--hands A,B] [--pairs N] [--seeds N]
+    python -m benchmarks tracking [--json FILE] [--buildings A,B] [--hands A,B] [--pairs N] [--seeds N]
         [--settings FILE] [--jobs N]
 
 In the true worlds of six real buildings (worlds_from_logs.py) a robot takes the shortest way from room to
@@ -30,9 +30,10 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from arguments import add_drawings, positive
-from drives import Job, destination_of, sites
-from errands import Errand, choose_errands
+from benchmarks.lib.arguments import add_drawings, positive
+from benchmarks.lib.drives import Job, destination_of, sites
+from benchmarks.lib.errands import Errand, choose_errands
+from benchmarks.lib.sites import DATA, TUNED, Drawing, Site, real_site
 from pilotage.config import Settings, read_settings
 from pilotage.errors import PilotageError
 from pilotage.evaluation.intervals import bootstrap_interval
@@ -46,7 +47,6 @@ from pilotage.localization.proposals import propose_near
 from pilotage.localization.tracking import predict, thin, weigh
 from pilotage.localization.visibility import Look, VisibilityModel, look
 from pilotage.simulation.laser import LaserSettings, sense
-from sites import DATA, TUNED, Drawing, Site, real_site
 
 ALL_AROUND = LaserSettings(beams=361, field_of_view=math.tau * 360 / 361)
 RADII = (0.4, 0.3, 0.2)  # [m] of the disc that takes the way: as far off the walls as there is space

@@ -7,9 +7,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from benchmarks.lib.sites import Site
 from pilotage.geometry import Array, Pose2
 from pilotage.simulation import BodySettings
-from sites import Site
 
 RADIUS = BodySettings().radius
 CLEARANCE = 0.3  # [m] about start and goal

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from errands import Errand
+from benchmarks.lib.errands import Errand
+from benchmarks.lib.sites import Site
 from pilotage.config import Settings
 from pilotage.evaluation.drive import Destination, Drive, DriveScore, navigate, score
 from pilotage.geometry import Array
 from pilotage.io.journal import journal_file
-from sites import Site
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ def write_down(job: Job, options: Options, driven: Drive, reason: str) -> None:
             for instant in driven.instants:
                 write(instant.step, instant.scene)
     if options.figure:
-        from drive_picture import write_picture
+        from benchmarks.lib.drive_picture import write_picture
 
         title = f"{job.name}: {errand.start_room} to {errand.goal_room}: {reason}"
         write_picture(
