@@ -130,7 +130,7 @@ def keep(
         print(json.dumps(figures, indent=1))
     elif arguments.json:
         write_text(arguments.json, json.dumps(figures, indent=1) + "\n")
-    if arguments.no_save or not figures:
+    if arguments.no_save or not figures or "failed" in figures:
         return
     if is_default or arguments.save:
         told = [word for word in words if word not in {"--save", "--json"} and word != str(arguments.json)]

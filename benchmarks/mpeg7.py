@@ -29,6 +29,7 @@ from skimage.measure import find_contours
 from benchmarks.lib.arguments import add_jobs, positive
 from benchmarks.lib.data import DATA
 from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import percent, table
 from pilotage.contours import ArcSequence, Comparison, Measure
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels.arc_correspondence import closed_dissimilarity
@@ -206,3 +207,17 @@ def measure(arguments: argparse.Namespace) -> Figures:
     print(f"the paper's combination among the best {RERANKED} of each: {shares['combination']:.2%}")
     print(f"{time.monotonic() - started:.0f} s in all, {arguments.jobs} processes")
     return shares
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    return table(
+        ("MPEG-7 CE-Shape-1 part B, bull's-eye score", "share"),
+        [
+            (f"eq. (2) over arcs (published {percent(PUBLISHED, 2)})", percent(figures["eq2"], 1)),
+            (
+                f"the best {RERANKED} of each put in order by the paper's combination",
+                percent(figures["combination"], 1),
+            ),
+        ],
+    )

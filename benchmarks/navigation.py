@@ -36,6 +36,7 @@ from benchmarks.lib.drives import Job, Options, Result, make, sites
 from benchmarks.lib.errands import choose_errands
 from benchmarks.lib.results import Figures
 from benchmarks.lib.sites import packed_site, real_site
+from benchmarks.lib.tables import number, percent, percent_in, table
 from pilotage.config import Settings
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.worlds import ALL
@@ -156,13 +157,13 @@ def tables_of(mode: str, results: Sequence[Result]) -> Row:
     for hand, own in by_hand(results).items():
         hands[hand] = hand_rows(hand, own)
         groups = {
-            "held_back": [result for result in own if result.job.site not in TUNED],
+            "held_out": [result for result in own if result.job.site not in TUNED],
             "tuned": [result for result in own if result.job.site in TUNED],
         }
         for name, part in groups.items():
             if part:
                 hands[hand][name] = row_of(f"  {hand}, {name.replace('_', ' ')}", part)
-    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings were held back")
+    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings were held out")
     return hands
 
 
@@ -241,3 +242,53 @@ def print_reasons(results: Sequence[Result]) -> None:
         print(f"\nHow drives ended, {MODES[mode].replace('_', ' ')}")
         for reason, count in endings.most_common():
             print(f"{count:6d}  {reason}")
+
+
+STARTS = {"known_start": "marked", "unknown_start": "unknown", "packed": "unknown, packed worlds"}
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        rendered_row(STARTS[mode], hand, row)
+        for mode, hands in figures.items()
+        if mode in STARTS
+        for hand, row in (hands["hands"] if mode == "packed" else hands).items()
+    ]
+    return "\n".join(
+        [
+            "A robot is sent from room to room in the true worlds of six real buildings, made from their logs, its",
+            "start marked on the drawing and not; and through the packed worlds. A drive has reached its goal if the",
+            "robot stopped of its own accord in the right room, within 1.5 m of the marked point or within 10 % of the",
+            "room's longer side.",
+            "",
+            table(
+                (
+                    "start",
+                    "drawings",
+                    "drives",
+                    "reached",
+                    "of these in held-out buildings",
+                    "way / shortest, median",
+                    "collisions",
+                    "ms a step, median and 95th percentile",
+                ),
+                rows,
+            ),
+        ]
+    )
+
+
+def rendered_row(start: str, hand: str, row: Figures) -> tuple[str, ...]:
+    """Write one row of the table of README."""
+    held_out = row.get("held_out")
+    return (
+        start,
+        f"`{hand}`",
+        str(row["drives"]),
+        percent_in(row["reached"], row["reached_interval"]),
+        percent(held_out["reached"]) if held_out else "",
+        number(row["path_ratio_median"], 2),
+        str(row["collisions"]),
+        f"{number(row['ms_median'], 0)}, {number(row['ms_p95'], 0)}",
+    )

@@ -22,6 +22,7 @@ import numpy as np
 from benchmarks.lib.arguments import names_of
 from benchmarks.lib.data import LOG_NAMES, LOGS
 from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import percent, table
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.evaluation.relations import read_relations, relation_errors
 from pilotage.evaluation.trajectory import (
@@ -178,3 +179,54 @@ def measure(arguments: argparse.Namespace) -> Figures:
     if "relations" in arguments.logs:
         scores["relations"] = score_relations()
     return scores
+
+
+BEST_KNOWN = {
+    "freiburg-079": 0.989,
+    "freiburg-101": 1.0,
+    "csail": 0.960,
+    "aces": 0.991,
+}  # of nine public matchers
+PUBLISHED = "published: scan matching .258 +- .427, a Rao-Blackwellized filter with loop closing .061 +- .044"
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        (
+            name,
+            percent(row["good_odometry"], 1),
+            f"{percent(row['good'], 1)} [{100 * row['good_low']:.1f}, {100 * row['good_high']:.1f}]",
+            percent(BEST_KNOWN.get(name), 1),
+            f"{row['t_median']:.3f} m, {row['r_median_deg']:.2f} deg",
+            percent(row["good_spoilt"], 1),
+            f"{row['ms_median']:.1f}",
+        )
+        for name, row in figures.items()
+        if name != "relations"
+    ]
+    lines = [
+        "Each scan is registered into the local map of those before it. Good is an error below 0.2 m and 3 degrees",
+        "over a step of 0.5 m or 20 degrees; *best known* is the best of nine public matchers under this protocol.",
+        "",
+        table(
+            (
+                "log",
+                "odometry: good",
+                "registered: good",
+                "best known",
+                "median error",
+                "odometry spoilt by 30 %, 20 deg/m: registered, good",
+                "ms a scan",
+            ),
+            rows,
+        ),
+    ]
+    if relations := figures.get("relations"):
+        lines += [
+            "",
+            "Against the hand-checked relations of freiburg-079, all scans chained:"
+            f" {relations['mean']:.3f} +- {relations['std']:.3f} m",
+            f"({PUBLISHED}).",
+        ]
+    return "\n".join(lines)

@@ -18,6 +18,7 @@ import numpy as np
 from PIL import Image
 
 from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import table
 from pilotage import worlds
 from pilotage.geometry import Array, Polyline, Twist
 from pilotage.io import open_world
@@ -133,3 +134,11 @@ def wander(world: World, seconds: float) -> tuple[int, float, int]:
         simulator.step(Twist(0.6, 0.1) if ahead > NEAR else Twist(0.0, 0.8))
         steps += 1
     return steps, time.process_time() - began, simulator.collisions
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    return table(
+        ("world", "times as fast as real time", "ms a step"),
+        [(name, f"{row['times_real_time']:.0f}", f"{row['ms_a_step']:.2f}") for name, row in figures.items()],
+    )

@@ -7,7 +7,7 @@ from pilotage.evaluation.calibration import area_under_curve, bins_of, calibrati
 from pilotage.evaluation.episodes import Trace
 
 
-def trace(probability, right, counted=True):
+def trace(probability, right, counted=(True,)):
     n = len(probability)
     return Trace(
         np.arange(float(n)),

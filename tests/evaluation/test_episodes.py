@@ -74,7 +74,7 @@ def test_a_way_that_is_too_short_is_refused():
         spread_episodes(np.zeros((5, 2)), 3, 40.0)
 
 
-def trace(probability, right=True, counted=True, mismatch=False, jump=0.0, step=1.0):
+def trace(probability, *, right=True, counted=True, mismatch=False, jump=0.0, step=1.0):
     """Make the trace of a robot that moves a step a scan."""
     n = len(probability)
     return Trace(
