@@ -1,6 +1,6 @@
 """Compare the probability of estimates with how often they are right, over the episodes of localization.
 
-    python -m benchmarks calibration [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N] [--json [FILE]]
+    python -m benchmarks calibration [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
 
 An estimate is right if it lies in the true room. Expected calibration error (ECE) over ten intervals of equal
 width, AUROC and Brier score; every episode has the same weight, however many scans it has. Episodes that
@@ -20,7 +20,7 @@ from benchmarks.lib.data import ROOT, TUNED, drawings
 from benchmarks.lib.protocols import Followed, Task, all_traces, follow_all
 from benchmarks.lib.reliability import write_reliability
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import percent, table
+from benchmarks.lib.tables import percent, prose, table
 from benchmarks.localization import EPISODES
 from pilotage.evaluation.calibration import calibration
 
@@ -111,10 +111,11 @@ def render(figures: Figures) -> str:
     last = figures["bins"][-1]
     return "\n".join(
         [
-            "How far the probability of an estimate is from the share of estimates that lie in the right room;",
-            "every episode has the same weight. Between"
-            f" {percent(last['low'])} and {percent(last['high'])} it is {percent(last['probability'])} on average,",
-            f"and {percent(last['right'])} are right.",
+            prose(
+                "How far the probability of an estimate is from the share of estimates in the right room; every"
+                f" episode has the same weight. Between {percent(last['low'])} and {percent(last['high'])} it is"
+                f" {percent(last['probability'])} on average, and {percent(last['right'])} are right."
+            ),
             "",
             table(("drawings", "episodes", "expected calibration error", "AUROC", "Brier score"), rows),
             "",

@@ -44,7 +44,7 @@ from benchmarks.lib.division import (
     read_gray,
 )
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import table
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.io.maps import open_map
 from pilotage.maps import DecompositionSettings, decompose
 
@@ -203,9 +203,11 @@ def render(figures: Figures) -> str:
             "",
             table(("what", "precision", "recall", "F1 of connections", "slowest plan"), rows),
             "",
-            "In 13 sketches by people the Matthews correlation of cells with the rooms of two people is"
-            f" {sketches['mcc_a']:.2f} and {sketches['mcc_b']:.2f};",
-            f"the two agree with each other by {sketches['annotators']:.2f}. Of the drawn rooms of six buildings"
-            f" {100 * drawings['is_one']:.0f} % are one cell.",
+            prose(
+                "In 13 sketches by people the Matthews correlation of cells with the rooms of two people is"
+                f" {sketches['mcc_a']:.2f} and {sketches['mcc_b']:.2f}; the two agree with each other by"
+                f" {sketches['annotators']:.2f}. Of the drawn rooms of six buildings"
+                f" {percent(drawings['is_one'])} are one cell."
+            ),
         ]
     )

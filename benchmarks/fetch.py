@@ -39,9 +39,7 @@ def main(words: Sequence[str]) -> None:
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "names", nargs="*", metavar="NAME", help="paths, or beginnings of paths; all by default"
-    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="beginnings of paths; all by default")
     parser.add_argument("--check", action="store_true", help="fetch nothing")
     arguments = parser.parse_args(words)
     items = [one for one in read_manifest(MANIFEST) if chosen(one, arguments.names)]

@@ -1,6 +1,6 @@
 """Carry a robot to another room while it localizes, and tell how soon it notices and finds itself again.
 
-    python -m benchmarks kidnap [--buildings A,B] [--hands A,B] [--kidnaps N] [--jobs N] [--json [FILE]]
+    python -m benchmarks kidnap [--buildings A,B] [--hands A,B] [--kidnaps N] [--jobs N]
 
 On draftsman drawings of three buildings a robot is told nothing. As soon as it is sure (above 0.9) and right
 it is set down more than 10 m away in another room: the log goes on elsewhere, odometry without a jump.
@@ -23,7 +23,7 @@ from benchmarks.lib.arguments import add_drawings, add_jobs, positive
 from benchmarks.lib.data import drawings
 from benchmarks.lib.protocols import LENGTH, Task, all_traces, follow_all, sketch_of, travel_of
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import table
+from benchmarks.lib.tables import prose, table
 from benchmarks.localization import EPISODES
 from pilotage.evaluation.episodes import (
     Trace,
@@ -186,9 +186,11 @@ def render(figures: Figures) -> str:
     ]
     return "\n".join(
         [
-            "A robot that was sure of its place and right is carried more than 10 m away to another room, unseen by",
-            "its odometry, and travels 40 m from there. A robot that is not carried away doubts its right place"
-            f" {figures['false_alarms']} times in {figures['unkidnapped_m']:.0f} m.",
+            prose(
+                "A robot that was sure of its place and right is carried more than 10 m away to another room,"
+                " unseen by its odometry, and travels 40 m from there. A robot that is not carried away doubts its"
+                f" right place {figures['false_alarms']} times in {figures['unkidnapped_m']:.0f} m."
+            ),
             "",
             table(
                 (

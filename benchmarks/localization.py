@@ -1,6 +1,6 @@
 """Localize on drawings of six real buildings from an unknown start, and tell how often the room is right.
 
-    python -m benchmarks localization [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N] [--json [FILE]]
+    python -m benchmarks localization [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
 
 Each episode puts the robot down somewhere in the log of a building and takes the next 40 m of travel: no
 start, no heading, no scale. Scans in rooms that a drawing leaves out are not counted. The hands `freehand`
@@ -20,7 +20,7 @@ from benchmarks.lib.arguments import add_drawings, add_jobs, positive
 from benchmarks.lib.data import BUILDINGS, HANDS, PEOPLE, TUNED, drawings
 from benchmarks.lib.protocols import Followed, Task, follow_all
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import percent, percent_in, table
+from benchmarks.lib.tables import percent, percent_in, prose, table
 from pilotage.evaluation.episodes import lost, score, settled
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.geometry import Array
@@ -157,8 +157,10 @@ def render(figures: Figures) -> str:
     ]
     return "\n".join(
         [
-            "The robot is put down in real logs of the buildings, told neither start nor heading nor scale, and",
-            "travels 40 m. Figures are means over buildings.",
+            prose(
+                "The robot is put down in real logs of the buildings, told neither start nor heading nor scale,"
+                " and travels 40 m. Figures are means over buildings."
+            ),
             "",
             table(
                 (

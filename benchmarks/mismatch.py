@@ -1,6 +1,6 @@
 """Localize in one building by the drawing of another, and tell how often the mismatch is noticed.
 
-    python -m benchmarks mismatch [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N] [--json [FILE]]
+    python -m benchmarks mismatch [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
 
 The log of each building is localized on the drawings of all others, 40 m at a time. A mismatch is noticed if
 that is the status at the end. False alarms are counted over the episodes of `localization`, where the drawing
@@ -16,7 +16,7 @@ from benchmarks.lib.arguments import add_drawings, add_jobs, positive
 from benchmarks.lib.data import BUILDINGS, drawings
 from benchmarks.lib.protocols import Followed, Task, all_traces, follow_all
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import percent, percent_in, table
+from benchmarks.lib.tables import percent, percent_in, prose, table
 from benchmarks.localization import EPISODES
 from pilotage.evaluation.episodes import Trace
 from pilotage.evaluation.intervals import bootstrap_interval
@@ -114,8 +114,10 @@ def render(figures: Figures) -> str:
     ]
     return "\n".join(
         [
-            "The log of each building is localized on the drawings of the others; `mismatch` should be the status",
-            "after 40 m. On the right drawing it should not.",
+            prose(
+                "The log of each building is localized on the drawings of the others; `mismatch` should be the"
+                " status after 40 m. On the right drawing it should not."
+            ),
             "",
             table(
                 (

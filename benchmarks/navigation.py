@@ -36,7 +36,7 @@ from benchmarks.lib.drives import Job, Options, Result, make, sites
 from benchmarks.lib.errands import choose_errands
 from benchmarks.lib.results import Figures
 from benchmarks.lib.sites import packed_site, real_site
-from benchmarks.lib.tables import number, percent, percent_in, table
+from benchmarks.lib.tables import number, percent, percent_in, prose, table
 from pilotage.config import Settings
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.worlds import ALL
@@ -97,9 +97,9 @@ def plan(arguments: argparse.Namespace) -> Iterator[Job]:
         ways = ", ".join(f"{errand.shortest:.0f}" for errand in errands)
         seconds = time.perf_counter() - began
         print(f"{site.name}: {len(errands)} errands of {ways} m; {seconds:.1f} s", flush=True)
-        for mode, hand, (number, errand) in product(modes, hands, enumerate(errands)):
-            if arguments.only in {None, number}:
-                yield Job(mode, site.name, hand, number, errand)
+        for mode, hand, (index, errand) in product(modes, hands, enumerate(errands)):
+            if arguments.only in {None, index}:
+                yield Job(mode, site.name, hand, index, errand)
 
 
 def warm_up(job: Job, options: Options) -> None:
@@ -257,10 +257,12 @@ def render(figures: Figures) -> str:
     ]
     return "\n".join(
         [
-            "A robot is sent from room to room in the true worlds of six real buildings, made from their logs, its",
-            "start marked on the drawing and not; and through the packed worlds. A drive has reached its goal if the",
-            "robot stopped of its own accord in the right room, within 1.5 m of the marked point or within 10 % of the",
-            "room's longer side.",
+            prose(
+                "A robot is sent from room to room in the true worlds of six real buildings, made from their logs,"
+                " its start marked on the drawing and not; and through the packed worlds. A drive has reached its"
+                " goal if the robot stopped of its own accord in the right room, within 1.5 m of the marked point"
+                " or within 10 % of the room's longer side."
+            ),
             "",
             table(
                 (

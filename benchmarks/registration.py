@@ -22,7 +22,7 @@ import numpy as np
 from benchmarks.lib.arguments import names_of
 from benchmarks.lib.data import LOG_NAMES, LOGS
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import percent, table
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.evaluation.relations import read_relations, relation_errors
 from pilotage.evaluation.trajectory import (
@@ -206,8 +206,11 @@ def render(figures: Figures) -> str:
         if name != "relations"
     ]
     lines = [
-        "Each scan is registered into the local map of those before it. Good is an error below 0.2 m and 3 degrees",
-        "over a step of 0.5 m or 20 degrees; *best known* is the best of nine public matchers under this protocol.",
+        prose(
+            "Each scan is registered into the local map of those before it. Good is an error below 0.2 m and"
+            " 3 degrees over a step of 0.5 m or 20 degrees; *best known* is the best of nine public matchers"
+            " under this protocol."
+        ),
         "",
         table(
             (
@@ -225,8 +228,9 @@ def render(figures: Figures) -> str:
     if relations := figures.get("relations"):
         lines += [
             "",
-            "Against the hand-checked relations of freiburg-079, all scans chained:"
-            f" {relations['mean']:.3f} +- {relations['std']:.3f} m",
-            f"({PUBLISHED}).",
+            prose(
+                "Against the hand-checked relations of freiburg-079, all scans chained:"
+                f" {relations['mean']:.3f} +- {relations['std']:.3f} m ({PUBLISHED})."
+            ),
         ]
     return "\n".join(lines)

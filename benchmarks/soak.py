@@ -1,6 +1,6 @@
 """Drive for simulated hours with goals that change, and check that memory does not grow.
 
-    python -m benchmarks soak [--hours H] [--max-growth MB] [--seed N] [--json [FILE]]
+    python -m benchmarks soak [--hours H] [--max-growth MB] [--seed N]
 
 A robot drives through the packed office by its quick drawing, among people and doors, with a noisy laser and
 noisy wheels; the start is unknown. Every two minutes, and whenever a drive is over, it is sent to another
@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import prose
 from pilotage.io import open_map, open_world
 from pilotage.localization import Localizer
 from pilotage.navigation import Navigator
@@ -96,7 +97,8 @@ def resident_mb() -> float:
 def render(figures: Figures) -> str:
     """Write the sentence of README."""
     resident = figures["rss_mb"]
-    return (
-        f"After {len(resident) / 4:.1f} simulated hours of driving to {figures['goals']} goals in a row memory is at"
-        f" {resident[-1]:.0f} MB;\nsince the first quarter hour it grew by {figures['growth_mb']:.1f} MB."
+    return prose(
+        f"After {len(resident) / 4:.1f} simulated hours of driving to {figures['goals']} goals in a row"
+        f" memory is at {resident[-1]:.0f} MB; since the first quarter hour it grew by"
+        f" {figures['growth_mb']:.1f} MB."
     )

@@ -4,8 +4,8 @@
 
 In the true worlds of six real buildings (worlds_from_logs) a robot is led along the shortest way from room to
 room, a scan every quarter metre; nobody drives, nobody is about. It is told its start on the drawing. What is
-left is how well the sensor model and the motion model follow a drawing whose proportions change on the way, so
-that a setting (--settings, TOML) is judged on hundreds of walks.
+left is how well the sensor model and the motion model follow a drawing whose proportions change on the way:
+a setting (--settings, TOML) is judged on hundreds of walks.
 
 A walk ends near if the estimate is within 1.5 m of the true place (carried over by the control points) or
 within 10 % of the room's longer side, as for a drive; "on the way" is the share of scans within 3 m.
@@ -30,7 +30,7 @@ from benchmarks.lib.drives import Job, destination_of, sites
 from benchmarks.lib.errands import Errand, choose_errands
 from benchmarks.lib.results import Figures
 from benchmarks.lib.sites import Drawing, Site, real_site
-from benchmarks.lib.tables import percent, percent_in, table
+from benchmarks.lib.tables import percent, percent_in, prose, table
 from pilotage.config import Settings, read_settings
 from pilotage.errors import PilotageError
 from pilotage.evaluation.intervals import bootstrap_interval
@@ -186,7 +186,7 @@ def miss_of(placed: Array, world_from_base: Pose2, drawing: Drawing) -> float:
     return float(np.hypot(*np.linalg.solve(linear, placed - here)))
 
 
-def hand_rows(hand: str, results: Sequence[Result]) -> Row:
+def hand_rows(hand: str, results: Sequence[Result]) -> Figures:
     """Print the lines of a hand, building by building, and return its figures."""
     buildings = {}
     for building in dict.fromkeys(one.job.site for one in results):
@@ -202,11 +202,11 @@ def hand_rows(hand: str, results: Sequence[Result]) -> Row:
     return row
 
 
-def row_of(title: str, results: Sequence[Result]) -> Row:
+def row_of(title: str, results: Sequence[Result]) -> Figures:
     """Print one line of the table and return its figures."""
     near = [one.near for one in results]
     low, high = bootstrap_interval(near, np.random.default_rng(0))
-    row: Row = {
+    row: Figures = {
         "walks": len(results),
         "near": float(np.mean(near)),
         "near_interval": (low, high),
@@ -237,8 +237,10 @@ def render(figures: Figures) -> str:
     ]
     return "\n".join(
         [
-            "A robot that is told its start is led from room to room; it ends near if its estimate is within 1.5 m of",
-            "the true place, or within 10 % of the room's longer side.",
+            prose(
+                "A robot that is told its start is led from room to room; it ends near if its estimate is within"
+                " 1.5 m of the true place, or within 10 % of the room's longer side."
+            ),
             "",
             table(
                 (

@@ -1,4 +1,4 @@
-"""Episodes of real logs on drawings, and a store of their traces, so that several benchmarks share one run."""
+"""Episodes of real logs on drawings, and a store of their traces: several benchmarks share one run."""
 
 import json
 import time
@@ -74,7 +74,7 @@ class Followed:
 
 @cache
 def travel_of(building: str, hand: str) -> Travel:
-    """Read the log of a building; its rooms are divided as those who made the drawing's truth divided them."""
+    """Read the log of a building; its rooms are divided as in the truth about the drawing."""
     log = open_log(LOGS / f"{building}.log.gz")
     truth = read_trajectory(LOGS / f"{building}.truth.tum")
     stamps = np.array([reading.scan.stamp for reading in log])
@@ -108,9 +108,9 @@ def follow_task(task: Task) -> Followed:
 
 
 def follow_all(tasks: Sequence[Task], jobs: int, *, reuse: bool) -> Iterator[Followed]:
-    """Follow tasks in their order, in several processes; `reuse` takes traces of the same commit from the store.
+    """Follow tasks in their order, in several processes.
 
-    Traces of code with changes that are not committed are never stored.
+    `reuse` takes traces of the same commit from the store. Traces of code with changes that are not committed are never stored.
     """
     commit = commit_of(ROOT)
     folder = None if commit == "unknown" or commit.endswith("+") else STORE / commit

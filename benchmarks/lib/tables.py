@@ -1,6 +1,9 @@
-"""Write tables of Markdown."""
+"""Write prose and tables of Markdown."""
 
+import textwrap
 from collections.abc import Iterable, Sequence
+
+WIDTH = 120
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -38,3 +41,12 @@ def percent_in(share: float, interval: Sequence[float]) -> str:
 def number(value: float | None, digits: int = 1) -> str:
     """Write a number, a dash if there is none."""
     return "-" if value is None else f"{value:.{digits}f}"
+
+
+def prose(text: str) -> str:
+    """Break a text into lines, whatever its line breaks were.
+
+    >>> prose("One\\n   two.")
+    'One two.'
+    """
+    return textwrap.fill(" ".join(text.split()), WIDTH)
