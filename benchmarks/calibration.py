@@ -112,8 +112,10 @@ def render(figures: Figures) -> str:
     return "\n".join(
         [
             prose(
-                "How far the probability of an estimate is from the share of estimates in the right room; every"
-                f" episode has the same weight. Between {percent(last['low'])} and {percent(last['high'])} it is"
+                "How far the probability of an estimate is from the share of estimates in the right room;"
+                " every"
+                f" episode has the same weight. Between {percent(last['low'])} and {percent(last['high'])}"
+                " it is"
                 f" {percent(last['probability'])} on average, and {percent(last['right'])} are right."
             ),
             "",

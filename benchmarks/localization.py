@@ -158,7 +158,8 @@ def render(figures: Figures) -> str:
     return "\n".join(
         [
             prose(
-                "The robot is put down in real logs of the buildings, told neither start nor heading nor scale,"
+                "The robot is put down in real logs of the buildings, told neither start nor heading nor"
+                " scale,"
                 " and travels 40 m. Figures are means over buildings."
             ),
             "",

@@ -115,7 +115,8 @@ def render(figures: Figures) -> str:
     return "\n".join(
         [
             prose(
-                "The log of each building is localized on the drawings of the others; `mismatch` should be the"
+                "The log of each building is localized on the drawings of the others; `mismatch` should be"
+                " the"
                 " status after 40 m. On the right drawing it should not."
             ),
             "",

@@ -258,9 +258,12 @@ def render(figures: Figures) -> str:
     return "\n".join(
         [
             prose(
-                "A robot is sent from room to room in the true worlds of six real buildings, made from their logs,"
-                " its start marked on the drawing and not; and through the packed worlds. A drive has reached its"
-                " goal if the robot stopped of its own accord in the right room, within 1.5 m of the marked point"
+                "A robot is sent from room to room in the true worlds of six real buildings, made from"
+                " their logs,"
+                " its start marked on the drawing and not; and through the packed worlds. A drive has"
+                " reached its"
+                " goal if the robot stopped of its own accord in the right room, within 1.5 m of the"
+                " marked point"
                 " or within 10 % of the room's longer side."
             ),
             "",

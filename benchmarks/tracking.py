@@ -238,7 +238,8 @@ def render(figures: Figures) -> str:
     return "\n".join(
         [
             prose(
-                "A robot that is told its start is led from room to room; it ends near if its estimate is within"
+                "A robot that is told its start is led from room to room; it ends near if its estimate is"
+                " within"
                 " 1.5 m of the true place, or within 10 % of the room's longer side."
             ),
             "",

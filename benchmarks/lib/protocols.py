@@ -110,7 +110,8 @@ def follow_task(task: Task) -> Followed:
 def follow_all(tasks: Sequence[Task], jobs: int, *, reuse: bool) -> Iterator[Followed]:
     """Follow tasks in their order, in several processes.
 
-    `reuse` takes traces of the same commit from the store. Traces of code with changes that are not committed are never stored.
+    `reuse` takes traces of the same commit from the store. Traces of code with changes that are not
+    committed are never stored.
     """
     commit = commit_of(ROOT)
     folder = None if commit == "unknown" or commit.endswith("+") else STORE / commit
