@@ -2,8 +2,8 @@
 
     python -m benchmarks readme [--check]
 
-The text between `<!-- measured: NAME -->` and `<!-- end -->` is replaced. Below each table stand the command, the commit and the date of its run; a table that was measured on other code than
-the latest one is marked.
+The text between `<!-- measured: NAME -->` and `<!-- end -->` is replaced. Below each table stand the command,
+the commit and the date of its run; a table that was measured on other code than the latest one is marked.
 """
 
 import argparse

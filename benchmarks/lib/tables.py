@@ -46,7 +46,7 @@ def number(value: float | None, digits: int = 1) -> str:
 def prose(text: str) -> str:
     """Break a text into lines, whatever its line breaks were.
 
-    >>> prose("One\\n   two.")
+    >>> prose("One   two.")
     'One two.'
     """
     return textwrap.fill(" ".join(text.split()), WIDTH)
