@@ -55,7 +55,7 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a kidnap; both are inf if it never happened."""
+    """The result of a kidnap; a distance is inf if it never happened."""
 
     attempt: Attempt
     to_doubt: float  # [m]

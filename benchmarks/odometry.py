@@ -1,10 +1,10 @@
-"""Hold the simulator's odometry to that of real robots, on the ways that they drove.
+"""Compare the simulator's odometry with that of real robots, on the trajectories that they drove.
 
     python -m benchmarks odometry
 
 For each log, its own odometry is compared with the truth over stretches of a few metres, and so is what the
-simulator's wheels report when they are led along the same truth. Told are the medians over all stretches of
-the error of place, as a share of the way, and of heading, in degrees.
+simulator's wheels report along the same truth. Printed are the medians over all stretches of the error of
+position, as a share of the distance, and of heading, in degrees.
 """
 
 import argparse

@@ -3,7 +3,8 @@
     python -m benchmarks segmentation
 
 The paper's rule breaks at lines nearly along the line of sight; ours keeps those that prolong others next to
-them. Told are, for every fifth scan, the mean number of shapes, the mean length of the longest and the share
+them. Printed are, for every fifth scan, the mean number of shapes, the mean length of the longest and the
+share
 of returns that belong to any.
 """
 

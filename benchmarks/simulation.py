@@ -1,10 +1,10 @@
-"""Measure how much faster than time itself the simulator runs, on one core.
+"""Measure how much faster than real time the simulator runs, on one core.
 
     python -m benchmarks simulation [--minutes M]
 
 A robot wanders through the packed world, and through a raster map of 100 m by 100 m whose walls are as rough
 as those that robots map; there are five people and a swinging door in each. A step is 0.1 s, and takes a scan
-of 181 beams. Told is also how long it takes to open each world, and to find a shortest way through it.
+of 181 beams. Printed is also how long it takes to open each world, and to find a shortest way through it.
 """
 
 import argparse
@@ -60,7 +60,7 @@ def measure(arguments: argparse.Namespace) -> Figures:
                 "opened_s": opened,
             }
             print(
-                f"{name}: {60.0 * arguments.minutes / taken:.0f} times as fast as time,"
+                f"{name}: {60.0 * arguments.minutes / taken:.0f} times as fast as real time,"
                 f" {1e3 * taken / steps:.2f} ms a step, {collisions} collisions"
             )
     return figures

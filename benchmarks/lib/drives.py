@@ -34,7 +34,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a drive."""
+    """The result of a drive."""
 
     job: Job
     score: DriveScore | None  # None if the program failed
@@ -42,7 +42,7 @@ class Result:
     right_room: float  # share of steps, nan if none was in a drawn room
     step_ms: Array  # (n,) [ms]
     seconds: float
-    complaint: str = ""  # what the program says of itself, if it failed
+    complaint: str = ""  # the error, if the program failed
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ def make(job: Job, options: Options) -> Result:
 
 
 def complain(job: Job, error: Exception) -> str:
-    """Print where the program failed; return what it says."""
+    """Print where the program failed; return its error message."""
     print(f"{job.name}: {''.join(traceback.format_exception(error))}", file=sys.stderr, flush=True)
     return f"failed: {traceback.format_exception_only(error)[-1].strip()}"
 

@@ -65,7 +65,7 @@ class Task:
 
 @dataclass(frozen=True, eq=False)
 class Followed:
-    """What came of a task."""
+    """The result of a task."""
 
     task: Task
     traces: tuple[Trace, ...]

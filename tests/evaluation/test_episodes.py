@@ -55,6 +55,17 @@ def test_a_broken_file_is_named(tmp_path):
         read_drawn_rooms(tmp_path / "broken.json")
 
 
+@pytest.mark.parametrize(
+    "content", ["{}", '{"rooms": 1, "features": 1}', "[]", "[1]", '{"rooms": {"a": [1]}}']
+)
+def test_rooms_of_another_shape_are_refused(tmp_path, content):
+    (tmp_path / "odd.json").write_text(content)
+
+    for read in (read_drawn_rooms, read_world_rooms):
+        with pytest.raises(FileError, match=r"odd\.json"):
+            read(tmp_path / "odd.json")
+
+
 @given(st.lists(st.floats(0.01, 3.0), min_size=60, max_size=200), st.integers(1, 10))
 def test_episodes_are_as_long_as_asked_give_or_take_one_step(steps, count):
     positions = np.column_stack([np.cumsum(steps), np.zeros(len(steps))])
