@@ -4,8 +4,7 @@
 
 The paper's rule breaks at lines nearly along the line of sight; ours keeps those that prolong others next to
 them. Printed are, for every fifth scan, the mean number of shapes, the mean length of the longest and the
-share
-of returns that belong to any.
+share of returns that belong to any.
 """
 
 import argparse
