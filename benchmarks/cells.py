@@ -24,13 +24,13 @@ import json
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import shapely
 from skimage.measure import label
 
-from division import (
+from benchmarks.lib.data import DATA
+from benchmarks.lib.division import (
     HALF,
     LEAST_PIXELS,
     adjacent_rooms,
@@ -43,10 +43,11 @@ from division import (
     rasterize,
     read_gray,
 )
+from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.io.maps import open_map
 from pilotage.maps import DecompositionSettings, decompose
 
-SHARED = Path(__file__).resolve().parents[1] / ".." / "shared" / "data"
 TUNING = ("Freiburg79_scan", "lab_a_scan", "lab_c_scan", "office_b", "office_d")
 FREE, SKETCH_FREE = 250, 230
 MOST = 0.8
@@ -68,7 +69,7 @@ class PlanScore:
 
 def score_plan(name: str, suffix: str) -> PlanScore:
     """Divide a floor plan and compare it with its rooms."""
-    folder = SHARED / "rooms"
+    folder = DATA / "rooms"
     start = time.process_time()
     graph = decompose(open_map(folder / f"{name}{suffix}.png"), DecompositionSettings())
     seconds = time.process_time() - start
@@ -84,9 +85,7 @@ def score_plan(name: str, suffix: str) -> PlanScore:
 
 def score_plans(title: str, suffix: str) -> dict[str, float]:
     """Print a table of plans, and return their means."""
-    names = sorted(
-        path.name.removesuffix("_gt_segmentation.png") for path in (SHARED / "rooms").glob("*_gt_*")
-    )
+    names = sorted(path.name.removesuffix("_gt_segmentation.png") for path in (DATA / "rooms").glob("*_gt_*"))
     scores = [score_plan(name, suffix) for name in names]
     print(f"\n{title}\n  plan               cells rooms precision  recall  edge F1   strict      s")
     for score in scores:
@@ -125,7 +124,7 @@ def score_sketches() -> dict[str, float]:
     rows = []
     print(f"\nSketches by people\n  {'sketch':8} {'cells':>5} {'a':>6} {'b':>6} {'a-b':>6}")
     for number in range(13):
-        path = SHARED / "people-sketches" / f"{number:02d}.png"
+        path = DATA / "people-sketches" / f"{number:02d}.png"
         graph = decompose(open_map(path), DecompositionSettings())
         a, b = (
             label(read_gray(path.with_name(f"{number:02d}_rooms_{who}.png")) > SKETCH_FREE, connectivity=1)
@@ -145,11 +144,11 @@ def score_sketches() -> dict[str, float]:
     return {"mcc_a": float(mean[0]), "mcc_b": float(mean[1]), "annotators": float(mean[2])}
 
 
-def score_drawings() -> None:
-    """Print how many of the drawn rooms are one cell."""
+def score_drawings() -> dict[str, float]:
+    """Print and return how many of the drawn rooms are one cell."""
     print("\nDrawings\n  drawing                  rooms cells  is one  in one covered      s")
     rows = []
-    for path in sorted((SHARED / "sketches").glob("*/*.svg")):
+    for path in sorted((DATA / "sketches").glob("*/*.svg")):
         sketch = open_map(path)
         start = time.process_time()
         graph = decompose(sketch, DecompositionSettings())
@@ -165,23 +164,50 @@ def score_drawings() -> None:
         name = f"{path.parent.name}/{path.stem}"
         shares = " ".join(f"{share:7.2f}" for share in rows[-1])
         print(f"  {name:24} {len(rooms):5} {len(cells):5} {shares} {seconds:6.2f}")
-    print(f"  mean: {np.mean(rows, axis=0).round(3)}")
+    is_one, in_one, covered = np.mean(rows, axis=0).tolist()
+    print(f"  mean: is one {is_one:.3f}, in one {in_one:.3f}, covered {covered:.3f}")
+    return {"is_one": is_one, "in_one": in_one, "covered": covered}
 
 
-def main() -> None:
-    """Print all scores."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--json", type=Path, help="write the means to this file")
-    target = parser.parse_args().json
-    result = {
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """There is nothing to choose."""
+
+
+def measure(_arguments: argparse.Namespace) -> Figures:
+    """Print all scores, and return the means."""
+    return {
         "empty": score_plans("Empty floor plans", ""),
         "furnished": score_plans("Furnished floor plans", "_furnitures"),
         "sketches": score_sketches(),
+        "drawings": score_drawings(),
     }
-    score_drawings()
-    if target is not None:
-        target.write_text(json.dumps(result, indent=2) + "\n")
 
 
-if __name__ == "__main__":
-    main()
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        (
+            f"11 {name} floor plans",
+            f"{row['precision']:.2f}",
+            f"{row['recall']:.2f}",
+            f"{row['edge_f1']:.2f}",
+            f"{row['seconds_max']:.1f} s",
+        )
+        for name, row in figures.items()
+        if name in {"empty", "furnished"}
+    ]
+    sketches, drawings = figures["sketches"], figures["drawings"]
+    return "\n".join(
+        [
+            "Cells against the rooms that people see in floor plans.",
+            "",
+            table(("what", "precision", "recall", "F1 of connections", "slowest plan"), rows),
+            "",
+            prose(
+                "In 13 sketches by people the Matthews correlation of cells with the rooms of two people is"
+                f" {sketches['mcc_a']:.2f} and {sketches['mcc_b']:.2f}; the two agree with each other by"
+                f" {sketches['annotators']:.2f}. Of the drawn rooms of six buildings"
+                f" {percent(drawings['is_one'])} are one cell."
+            ),
+        ]
+    )

@@ -4,7 +4,7 @@ Each of 1400 silhouettes in 70 classes of 20 is the query once. Counted is how m
 40 least dissimilar of all, itself included. The measure of Latecki and Lakämper, eq. (2), is published with
 76.45 % (Latecki, Lakämper and Eckhardt, CVPR 2000). To run it on two cores:
 
-    python benchmarks/mpeg7.py --json mpeg7.json
+    python -m benchmarks mpeg7
 
 Two silhouettes are as unlike as they are at the best of three levels of evolution, one of them mirrored or
 not. The combination of the paper is ten times as dear: it only puts the best 80 of eq. (2) in order again,
@@ -12,7 +12,6 @@ each at its best level.
 """
 
 import argparse
-import json
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -27,13 +26,17 @@ from numpy.typing import NDArray
 from PIL import Image
 from skimage.measure import find_contours
 
+from benchmarks.lib.arguments import add_jobs, positive
+from benchmarks.lib.data import DATA
+from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import percent, table
 from pilotage.contours import ArcSequence, Comparison, Measure
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels.arc_correspondence import closed_dissimilarity
 from pilotage.kernels.evolution_compiled import evolve_runs
 from pilotage.kernels.steps import ArcSteps
 
-IMAGES = Path(__file__).resolve().parents[2] / "shared" / "data" / "shapes" / "mpeg7"
+IMAGES = DATA / "shapes" / "mpeg7"
 PUBLISHED = 0.7645
 RETRIEVED = 40  # silhouettes that a query may return
 CLASS_SIZE = 20
@@ -176,39 +179,45 @@ def score(ranking: Indices) -> float:
     return float((labels[ranking[:, :RETRIEVED]] == labels[:, None]).sum() / (len(labels) * CLASS_SIZE))
 
 
-def main() -> None:
-    """Run the test, print both shares and write them."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--images", type=Path, default=IMAGES, help="folder of <class>-<number>.gif")
-    parser.add_argument("--classes", type=int, default=70, help="take only so many classes, evenly chosen")
-    parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--json", type=Path, help="write the shares here")
-    arguments = parser.parse_args()
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose classes and processes."""
+    parser.add_argument("--classes", type=positive, default=70, help="take only so many, evenly chosen")
+    add_jobs(parser)
 
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Run the test, print both shares and return them."""
     started = time.monotonic()
-    paths = sorted(arguments.images.glob("*.gif"))
+    paths = sorted(IMAGES.glob("*.gif"))
     if not paths:
-        parser.error(f"no silhouettes in {arguments.images}")
+        return {"failed": f"no silhouettes in {IMAGES}"}
     labels = sorted({path.stem.rsplit("-", 1)[0] for path in paths})
     chosen = {labels[k * len(labels) // arguments.classes] for k in range(arguments.classes)}
     paths = [path for path in paths if path.stem.rsplit("-", 1)[0] in chosen]
     silhouettes.extend(read_silhouette(path) for path in paths)
     print(f"{len(paths)} silhouettes of {len(chosen)} classes read in {time.monotonic() - started:.0f} s")
-    for measure in Measure:  # compiled once, before the processes part
-        compare(silhouettes[0].straight[0], silhouettes[1].straight[0], measure)
+    for comparison in Measure:  # compiled once, before the processes part
+        compare(silhouettes[0].straight[0], silhouettes[1].straight[0], comparison)
 
-    costs, variants = compare_all(arguments.processes)
+    costs, variants = compare_all(arguments.jobs)
     ranking = np.argsort(costs, axis=1, kind="stable")
     shares = {"eq2": score(ranking)}
     print(f"eq. (2) over arcs: {shares['eq2']:.2%} (published for all classes: {PUBLISHED:.2%})", flush=True)
-    shares["combination"] = score(rank_again(ranking, variants, arguments.processes))
+    shares["combination"] = score(rank_again(ranking, variants, arguments.jobs))
     print(f"the paper's combination among the best {RERANKED} of each: {shares['combination']:.2%}")
-    print(f"{time.monotonic() - started:.0f} s in all, {arguments.processes} processes")
-    if arguments.json:
-        arguments.json.write_text(json.dumps(shares) + "\n", encoding="utf-8")
+    print(f"{time.monotonic() - started:.0f} s in all, {arguments.jobs} processes")
+    return shares
 
 
-if __name__ == "__main__":
-    main()
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    return table(
+        ("MPEG-7 CE-Shape-1 part B, bull's-eye score", "share"),
+        [
+            (f"eq. (2) over arcs (published {percent(PUBLISHED, 2)})", percent(figures["eq2"], 1)),
+            (
+                f"the best {RERANKED} of each put in order by the paper's combination",
+                percent(figures["combination"], 1),
+            ),
+        ],
+    )

@@ -1,6 +1,6 @@
 """Drive to goals on drawings of buildings, and print how often the robot gets there.
 
-    python benchmarks/navigation.py [--json FILE] [--modes known,unknown,packed] [--buildings A,B]
+    python -m benchmarks navigation [--json FILE] [--modes known,unknown,packed] [--buildings A,B]
         [--hands A,B] [--pairs N] [--only K] [--jobs N] [--seed N] [--time-limit S]
         [--journal DIR] [--figure DIR]
 
@@ -18,9 +18,6 @@ Intervals are 95 % bootstrap intervals over drives.
 """
 
 import argparse
-import json
-import os
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -31,29 +28,43 @@ from itertools import product
 from multiprocessing import get_context
 from pathlib import Path
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import numpy as np
 
-from arguments import add_drawings, names_of, positive, seconds
-from drives import Job, Options, Result, make, sites
-from errands import choose_errands
+from benchmarks.lib.arguments import add_drawings, add_jobs, names_of, positive, seconds
+from benchmarks.lib.data import PACKED_HANDS, TUNED
+from benchmarks.lib.drives import Job, Options, Result, make, sites
+from benchmarks.lib.errands import choose_errands
+from benchmarks.lib.results import Figures
+from benchmarks.lib.sites import packed_site, real_site
+from benchmarks.lib.tables import number, percent, percent_in, prose, table
 from pilotage.config import Settings
 from pilotage.evaluation.intervals import bootstrap_interval
-from pilotage.io.files import write_text
 from pilotage.worlds import ALL
-from sites import DATA, PACKED_HANDS, TUNED, packed_site, real_site
 
 MODES = {"known": "known_start", "unknown": "unknown_start", "packed": "packed"}
 
 Row = dict[str, object]
 
 
-def main() -> None:
-    """Make all drives and print the tables."""
-    arguments = parse()
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose drives, and what is kept of each."""
+    add_drawings(parser)
+    parser.add_argument(
+        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
+    )
+    parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
+    parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
+    add_jobs(parser)
+    parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
+    parser.add_argument("--time-limit", type=seconds, default=300.0, help="[s] (default: %(default)s)")
+    parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
+    parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Make all drives, print the tables, and return the figures."""
     settings = Settings()
-    navigator = replace(settings.navigator, time_limit=arguments.time_limit or settings.navigator.time_limit)
+    navigator = replace(settings.navigator, time_limit=arguments.time_limit)
     options = Options(
         arguments.seed, replace(settings, navigator=navigator), arguments.journal, arguments.figure
     )
@@ -65,34 +76,9 @@ def main() -> None:
         for mode in dict.fromkeys(job.mode for job in jobs)
     }
     print_reasons(results)
-    if arguments.json:
-        write_text(arguments.json, json.dumps(rows, indent=1) + "\n")
-    if any(result.complaint for result in results):
-        sys.exit(1)
-
-
-def parse() -> argparse.Namespace:
-    """Read the command line."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    add_drawings(parser)
-    parser.add_argument(
-        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
-    )
-    parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
-    parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
-    parser.add_argument(
-        "--jobs", type=positive, default=2, help="processes; 1 for honest times (default: %(default)s)"
-    )
-    parser.add_argument("--seed", type=int, default=0, help="(default: %(default)s)")
-    parser.add_argument("--time-limit", type=seconds, help="[s] after which the robot gives up")
-    parser.add_argument("--journal", type=Path, help="folder for a journal of every drive")
-    parser.add_argument("--figure", type=Path, help="folder for a picture of every drive")
-    arguments = parser.parse_args()
-    if set(arguments.modes) != {"packed"} and not DATA.is_dir():
-        parser.error("the data folder is not there: ../shared/data beside the repository")
-    return arguments
+    if complaints := [result.complaint for result in results if result.complaint]:
+        return {**rows, "failed": f"{len(complaints)} drives, the first: {complaints[0]}"}
+    return rows
 
 
 def plan(arguments: argparse.Namespace) -> Iterator[Job]:
@@ -111,9 +97,9 @@ def plan(arguments: argparse.Namespace) -> Iterator[Job]:
         ways = ", ".join(f"{errand.shortest:.0f}" for errand in errands)
         seconds = time.perf_counter() - began
         print(f"{site.name}: {len(errands)} errands of {ways} m; {seconds:.1f} s", flush=True)
-        for mode, hand, (number, errand) in product(modes, hands, enumerate(errands)):
-            if arguments.only in {None, number}:
-                yield Job(mode, site.name, hand, number, errand)
+        for mode, hand, (index, errand) in product(modes, hands, enumerate(errands)):
+            if arguments.only in {None, index}:
+                yield Job(mode, site.name, hand, index, errand)
 
 
 def warm_up(job: Job, options: Options) -> None:
@@ -171,13 +157,13 @@ def tables_of(mode: str, results: Sequence[Result]) -> Row:
     for hand, own in by_hand(results).items():
         hands[hand] = hand_rows(hand, own)
         groups = {
-            "held_back": [result for result in own if result.job.site not in TUNED],
+            "held_out": [result for result in own if result.job.site not in TUNED],
             "tuned": [result for result in own if result.job.site in TUNED],
         }
         for name, part in groups.items():
             if part:
                 hands[hand][name] = row_of(f"  {hand}, {name.replace('_', ' ')}", part)
-    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings were held back")
+    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings were held out")
     return hands
 
 
@@ -258,5 +244,56 @@ def print_reasons(results: Sequence[Result]) -> None:
             print(f"{count:6d}  {reason}")
 
 
-if __name__ == "__main__":
-    main()
+STARTS = {"known_start": "marked", "unknown_start": "unknown", "packed": "unknown, packed worlds"}
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        rendered_row(STARTS[mode], hand, row)
+        for mode, hands in figures.items()
+        if mode in STARTS
+        for hand, row in (hands["hands"] if mode == "packed" else hands).items()
+    ]
+    return "\n".join(
+        [
+            prose(
+                "A robot is sent from room to room in the true worlds of six real buildings, made from"
+                " their logs,"
+                " its start marked on the drawing and not; and through the packed worlds. A drive has"
+                " reached its"
+                " goal if the robot stopped of its own accord in the right room, within 1.5 m of the"
+                " marked point"
+                " or within 10 % of the room's longer side."
+            ),
+            "",
+            table(
+                (
+                    "start",
+                    "drawings",
+                    "drives",
+                    "reached",
+                    "of these in held-out buildings",
+                    "way / shortest, median",
+                    "collisions",
+                    "ms a step, median and 95th percentile",
+                ),
+                rows,
+            ),
+        ]
+    )
+
+
+def rendered_row(start: str, hand: str, row: Figures) -> tuple[str, ...]:
+    """Write one row of the table of README."""
+    held_out = row.get("held_out")
+    return (
+        start,
+        f"`{hand}`",
+        str(row["drives"]),
+        percent_in(row["reached"], row["reached_interval"]),
+        percent(held_out["reached"]) if held_out else "",
+        number(row["path_ratio_median"], 2),
+        str(row["collisions"]),
+        f"{number(row['ms_median'], 0)}, {number(row['ms_p95'], 0)}",
+    )

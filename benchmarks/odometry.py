@@ -1,41 +1,43 @@
-"""Hold the simulator's odometry to that of real robots, on the ways that they drove.
+"""Compare the simulator's odometry with that of real robots, on the trajectories that they drove.
 
-    python benchmarks/odometry.py [--logs DIR]
+    python -m benchmarks odometry
 
 For each log, its own odometry is compared with the truth over stretches of a few metres, and so is what the
-simulator's wheels report when they are led along the same truth. Told are the medians over all stretches of
-the error of place, as a share of the way, and of heading, in degrees.
+simulator's wheels report along the same truth. Printed are the medians over all stretches of the error of
+position, as a share of the distance, and of heading, in degrees.
 """
 
 import argparse
 import math
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
+from benchmarks.lib.arguments import names_of
+from benchmarks.lib.data import LOG_NAMES, LOGS
+from benchmarks.lib.results import Figures
 from pilotage.evaluation.trajectory import motion_errors
 from pilotage.geometry import Pose2
 from pilotage.io.logs import open_log
 from pilotage.io.tum import read_trajectory
 from pilotage.simulation import OdometrySettings, reckon
 
-LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
-NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")
 STRETCHES = (1.0, 5.0, 20.0)  # [m]
 
 
-def main() -> None:
-    """Print two lines for each log."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose logs."""
+    parser.add_argument(
+        "--logs", type=names_of(LOG_NAMES), default=",".join(LOG_NAMES), help="(default: %(default)s)"
     )
-    parser.add_argument("--logs", type=Path, default=LOGS, help="folder with LOG.log.gz and LOG.truth.tum")
-    arguments = parser.parse_args()
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Print two lines for each log, and return the medians over logs."""
     everything: dict[str, list[np.ndarray]] = {"real": [], "simulated": []}
-    for name in NAMES:
-        readings = open_log(arguments.logs / f"{name}.log.gz").readings
-        truth = list(read_trajectory(arguments.logs / f"{name}.truth.tum"))
+    for name in arguments.logs:
+        readings = open_log(LOGS / f"{name}.log.gz").readings
+        truth = list(read_trajectory(LOGS / f"{name}.truth.tum"))
         real = [reading.odometry.odom_from_base for reading in readings]
         simulated = reckon(truth, np.random.default_rng(0), OdometrySettings())
         for kind, reported in (("real", real), ("simulated", simulated)):
@@ -44,6 +46,13 @@ def main() -> None:
             tell(f"{name:18s} {kind:10s}", medians)
     for kind, medians_of_logs in everything.items():
         tell(f"{'median of logs':18s} {kind:10s}", np.median(medians_of_logs, axis=0))
+    return {
+        kind: {
+            f"{stretch:.0f} m": {"place": float(place), "turn_deg": float(turn)}
+            for stretch, (place, turn) in zip(STRETCHES, np.median(of_logs, axis=0), strict=True)
+        }
+        for kind, of_logs in everything.items()
+    }
 
 
 def median_errors(truth: list[Pose2], reported: list[Pose2], stretch: float) -> tuple[float, float]:
@@ -67,7 +76,3 @@ def tell(title: str, medians: np.ndarray) -> None:
         for stretch, (place, turn) in zip(STRETCHES, medians, strict=True)
     )
     print(title, "   ".join(parts))
-
-
-if __name__ == "__main__":
-    main()

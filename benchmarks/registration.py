@@ -1,6 +1,6 @@
 """Score registration on real logs: errors of each step against the truth, and time.
 
-    python benchmarks/registration.py [--logs DIR] [--only LOG ...] [--seed N] [--shapes] [--json FILE]
+    python -m benchmarks registration [--logs A,B] [--seed N] [--shapes] [--json FILE]
 
 Pairs of consecutive scans, thinned to a motion of at least 0.5 m or 20 degrees, ranges cut at 30 m. The guess
 is the raw odometry, as it is and spoilt by noise of 30 % of the distance and 20 degrees a meter. Each scan is
@@ -12,15 +12,17 @@ rest of it, freiburg-101, belgioioso and fhw were held back.
 """
 
 import argparse
-import json
 import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
+from benchmarks.lib.arguments import names_of
+from benchmarks.lib.data import LOG_NAMES, LOGS
+from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.evaluation.relations import read_relations, relation_errors
 from pilotage.evaluation.trajectory import (
@@ -38,8 +40,7 @@ from pilotage.io.tum import read_trajectory
 from pilotage.perception import Odometry, Reading
 from pilotage.scan_matching import Method, ScanMatcher, ScanMatchingSettings
 
-LOGS = Path(__file__).resolve().parents[2] / "shared" / "data" / "logs"
-NAMES = ("freiburg-079", "freiburg-101", "csail", "aces", "infinite-corridor", "belgioioso", "fhw")
+CHOICES = (*LOG_NAMES, "relations")
 MIN_DISTANCE, MIN_TURN = 0.5, math.radians(20.0)  # [m, rad] between scans
 MAX_RANGE = 30.0  # [m]
 GOOD_PLACE, GOOD_TURN = 0.2, math.radians(3.0)  # [m, rad]
@@ -90,7 +91,13 @@ def report(
         f"  {name:10s} {100 * good.mean():6.2f} % good [{100 * low:.1f}, {100 * high:.1f}]"
         f"   {t_median:.3f} {t_p95:.3f} m   {r_median:.2f} {r_p95:.2f} deg"
     )
-    values = {"good": float(good.mean()), "t_median": t_median, "t_p95": t_p95}
+    values = {
+        "good": float(good.mean()),
+        "good_low": low,
+        "good_high": high,
+        "t_median": t_median,
+        "t_p95": t_p95,
+    }
     values |= {"r_median_deg": r_median, "r_p95_deg": r_p95}
     if elapsed_ms is not None:
         ms_median, ms_p95 = np.quantile(elapsed_ms, [0.5, 0.95]).tolist()
@@ -100,11 +107,11 @@ def report(
     return values
 
 
-def score_log(directory: Path, name: str, seed: int, *, shapes: bool) -> dict[str, float]:
+def score_log(name: str, seed: int, *, shapes: bool) -> dict[str, float]:
     """Register a log with its odometry as it is and spoilt."""
     rng = np.random.default_rng(seed)
-    log = open_log(directory / f"{name}.log.gz")
-    truth = read_trajectory(directory / f"{name}.truth.tum")
+    log = open_log(LOGS / f"{name}.log.gz")
+    truth = read_trajectory(LOGS / f"{name}.truth.tum")
     indices = associate(np.array([reading.scan.stamp for reading in log]), truth)
     poses = [truth.pose(index) for index in indices]
     kept = thin(poses, MIN_DISTANCE, MIN_TURN)
@@ -115,9 +122,10 @@ def score_log(directory: Path, name: str, seed: int, *, shapes: bool) -> dict[st
     run(readings[:WARM_UP], chain(reckoned[: WARM_UP - 1]))
 
     print(f"{name}: {len(true)} steps; median and 95th percentile of errors", flush=True)
-    report("odometry", motion_errors(reckoned, true), None, rng)
+    raw = report("odometry", motion_errors(reckoned, true), None, rng)
     plain = run(readings, chain(reckoned))
     values = report("registered", motion_errors(plain.steps, true), plain.elapsed_ms, rng)
+    values["good_odometry"] = raw["good"]
     if shapes:
         paper = run(readings, chain(reckoned), Method.SHAPES)
         report("by shape", motion_errors(paper.steps, true), paper.elapsed_ms, rng)
@@ -129,47 +137,95 @@ def score_log(directory: Path, name: str, seed: int, *, shapes: bool) -> dict[st
     return values
 
 
-def score_relations(directory: Path) -> dict[str, float]:
+def score_relations() -> dict[str, float]:
     """Register every scan of freiburg-079 and score the chain by relations checked by hand."""
-    log = open_log(directory / "freiburg-079.log.gz")
+    log = open_log(LOGS / "freiburg-079.log.gz")
     readings = [cut(reading) for reading in log]
     steps = run(readings, [reading.odometry.odom_from_base for reading in readings]).steps
     stamps = np.array([reading.scan.stamp for reading in readings])
     poses = np.array([(pose.x, pose.y, pose.theta) for pose in chain(steps)])
-    errors = relation_errors(
-        Trajectory(stamps, poses), read_relations(directory / "freiburg-079.relations")
-    ).place
+    errors = relation_errors(Trajectory(stamps, poses), read_relations(LOGS / "freiburg-079.relations")).place
     values = {"mean": float(errors.mean()), "std": float(errors.std())}
     print(f"relations: {values['mean']:.3f} +- {values['std']:.3f} m, {len(readings)} scans chained")
     return values
 
 
-def main() -> None:
-    """Score, print and write."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose logs, the seed of noise, and the paper's own registration."""
+    parser.add_argument(
+        "--logs", type=names_of(CHOICES), default=",".join(CHOICES), help="(default: %(default)s)"
     )
-    parser.add_argument("--logs", type=Path, default=LOGS, help="folder with LOG.log.gz and LOG.truth.tum")
-    parser.add_argument("--only", nargs="+", choices=(*NAMES, "relations"), default=(*NAMES, "relations"))
     parser.add_argument("--seed", type=int, default=0, help="of the noise that spoils odometry")
     parser.add_argument(
         "--shapes", action="store_true", help="also register by shape alone, as the paper does"
     )
-    parser.add_argument("--json", type=Path, help="write the numbers here")
-    arguments = parser.parse_args()
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Score each log, and return the figures."""
     scores = {
-        name: score_log(arguments.logs, name, arguments.seed, shapes=arguments.shapes)
-        for name in NAMES
-        if name in arguments.only
+        name: score_log(name, arguments.seed, shapes=arguments.shapes)
+        for name in arguments.logs
+        if name != "relations"
     }
     if scores:
         mean = np.mean([score["good_spoilt"] for score in scores.values()])
         print(f"mean share of good steps with spoilt odometry: {100 * mean:.2f} %")
-    if "relations" in arguments.only:
-        scores["relations"] = score_relations(arguments.logs)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(scores, indent=2) + "\n", encoding="utf-8")
+    if "relations" in arguments.logs:
+        scores["relations"] = score_relations()
+    return scores
 
 
-if __name__ == "__main__":
-    main()
+BEST_KNOWN = {
+    "freiburg-079": 0.989,
+    "freiburg-101": 1.0,
+    "csail": 0.960,
+    "aces": 0.991,
+}  # of nine public matchers
+PUBLISHED = "published: scan matching .258 +- .427, a Rao-Blackwellized filter with loop closing .061 +- .044"
+
+
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        (
+            name,
+            percent(row["good_odometry"], 1),
+            f"{percent(row['good'], 1)} [{100 * row['good_low']:.1f}, {100 * row['good_high']:.1f}]",
+            percent(BEST_KNOWN.get(name), 1),
+            f"{row['t_median']:.3f} m, {row['r_median_deg']:.2f} deg",
+            percent(row["good_spoilt"], 1),
+            f"{row['ms_median']:.1f}",
+        )
+        for name, row in figures.items()
+        if name != "relations"
+    ]
+    lines = [
+        prose(
+            "Each scan is registered into the local map of those before it. Good is an error below 0.2 m and"
+            " 3 degrees over a step of 0.5 m or 20 degrees; *best known* is the best of nine public matchers"
+            " under this protocol."
+        ),
+        "",
+        table(
+            (
+                "log",
+                "odometry: good",
+                "registered: good",
+                "best known",
+                "median error",
+                "odometry spoilt by 30 %, 20 deg/m: registered, good",
+                "ms a scan",
+            ),
+            rows,
+        ),
+    ]
+    if relations := figures.get("relations"):
+        lines += [
+            "",
+            prose(
+                "Against the hand-checked relations of freiburg-079, all scans chained:"
+                f" {relations['mean']:.3f} +- {relations['std']:.3f} m ({PUBLISHED})."
+            ),
+        ]
+    return "\n".join(lines)

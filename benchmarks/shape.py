@@ -1,8 +1,9 @@
 """Time the kernels that simplify, compare and match shapes; best and median of many calls.
 
-python benchmarks/shape.py
+python -m benchmarks shape
 """
 
+import argparse
 import math
 import statistics
 import time
@@ -10,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from benchmarks.lib.results import Figures
 from pilotage.contours import ArcSequence, Comparison, Matching, Measure, match_partial
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels import evolution, evolution_compiled
@@ -22,6 +24,9 @@ BEAMS = 361
 SETTINGS = Comparison()
 
 
+times_us: dict[str, float] = {}
+
+
 def report(what: str, call: Callable[[], object]) -> None:
     """Print how long a call takes."""
     call()  # compiled, if it must be
@@ -30,6 +35,7 @@ def report(what: str, call: Callable[[], object]) -> None:
         started = time.perf_counter()
         call()
         times.append(time.perf_counter() - started)
+    times_us[what] = 1e6 * statistics.median(times)
     print(f"{what:62}{1e6 * min(times):10.0f} µs{1e6 * statistics.median(times):10.0f} µs")
 
 
@@ -40,8 +46,13 @@ def lobed_outline(vertices: int, lobes: int, noise: float) -> Array:
     return radii[:, None] * np.column_stack([np.cos(directions), np.sin(directions)])
 
 
-def main() -> None:
-    """Time one kernel after the other."""
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """There is nothing to choose."""
+
+
+def measure(_arguments: argparse.Namespace) -> Figures:
+    """Time one kernel after the other, and return the medians [µs]."""
+    times_us.clear()
     print(f"{'':62}{'best':>10}   {'median':>10}")
     scan = (lobed_outline(BEAMS, 5, 0.01), np.array([0, BEAMS]), np.array([True]), 0.03)
     report(f"evolution of {BEAMS} vertices, plain", lambda: evolution.evolve_runs(*scan))
@@ -65,7 +76,4 @@ def main() -> None:
         seen, known = (PartialShape(Polyline(walk)) for walk in walks)
         what = f"partial match of {vertices} against {vertices} vertices, all poses"
         report(what, lambda seen=seen, known=known: match_partial(seen, known, Matching()))
-
-
-if __name__ == "__main__":
-    main()
+    return {"median_us": dict(times_us)}

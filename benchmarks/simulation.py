@@ -1,10 +1,10 @@
-"""Measure how much faster than time itself the simulator runs, on one core.
+"""Measure how much faster than real time the simulator runs, on one core.
 
-    python benchmarks/simulation.py [--minutes M]
+    python -m benchmarks simulation [--minutes M]
 
 A robot wanders through the packed world, and through a raster map of 100 m by 100 m whose walls are as rough
 as those that robots map; there are five people and a swinging door in each. A step is 0.1 s, and takes a scan
-of 181 beams. Told is also how long it takes to open each world, and to find a shortest way through it.
+of 181 beams. Printed is also how long it takes to open each world, and to find a shortest way through it.
 """
 
 import argparse
@@ -17,6 +17,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from benchmarks.lib.results import Figures
+from benchmarks.lib.tables import table
 from pilotage import worlds
 from pilotage.geometry import Array, Polyline, Twist
 from pilotage.io import open_world
@@ -31,13 +33,16 @@ SETTINGS = SimulatorSettings(laser=LaserSettings(beams=181))
 RADIUS = SETTINGS.body.radius
 
 
-def main() -> None:
-    """Print a line for each world."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose how long the robot drives."""
+    parser.add_argument(
+        "--minutes", type=float, default=5.0, help="on the robot's clock (default: %(default)s)"
     )
-    parser.add_argument("--minutes", type=float, default=5.0, help="how long the robot drives, on its clock")
-    arguments = parser.parse_args()
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Print a line for each world, and return the figures."""
+    figures: Figures = {}
     with tempfile.TemporaryDirectory() as folder:
         for name, path in (("packed", worlds.OFFICE.world), ("raster", write_raster(Path(folder)))):
             open_world(path)  # compiles
@@ -49,10 +54,16 @@ def main() -> None:
             find_long_way(name, world)
             wander(world, 1.0)
             steps, taken, collisions = wander(world, 60.0 * arguments.minutes)
+            figures[name] = {
+                "times_real_time": 60.0 * arguments.minutes / taken,
+                "ms_a_step": 1e3 * taken / steps,
+                "opened_s": opened,
+            }
             print(
-                f"{name}: {60.0 * arguments.minutes / taken:.0f} times as fast as time,"
+                f"{name}: {60.0 * arguments.minutes / taken:.0f} times as fast as real time,"
                 f" {1e3 * taken / steps:.2f} ms a step, {collisions} collisions"
             )
+    return figures
 
 
 def write_raster(folder: Path) -> Path:
@@ -94,7 +105,7 @@ def peopled(world: World) -> World:
 
 
 def find_long_way(name: str, world: World) -> None:
-    """Print how long the search for a way between two places takes, anew and once more."""
+    """Print how long the search for a way between two places takes, the first time and the second."""
     rng = np.random.default_rng(4)
     start, goal = (find_start(world, RADIUS, rng).position for _ in range(2))
     taken = []
@@ -125,5 +136,9 @@ def wander(world: World, seconds: float) -> tuple[int, float, int]:
     return steps, time.process_time() - began, simulator.collisions
 
 
-if __name__ == "__main__":
-    main()
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    return table(
+        ("world", "times as fast as real time", "ms a step"),
+        [(name, f"{row['times_real_time']:.0f}", f"{row['ms_a_step']:.2f}") for name, row in figures.items()],
+    )

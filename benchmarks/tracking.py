@@ -1,86 +1,83 @@
-"""Carry belief along known ways, from a start that is marked, and print how far off it ends.
+"""Keep track along known ways from a start that is marked, and tell how far off the robot ends.
 
-    python benchmarks/tracking.py [--json FILE] [--buildings A,B] [--hands A,B] [--pairs N] [--seeds N]
-        [--settings FILE] [--jobs N]
+    python -m benchmarks tracking [--buildings A,B] [--hands A,B] [--pairs N] [--seeds N] [--settings FILE]
 
-In the true worlds of six real buildings (worlds_from_logs.py) a robot takes the shortest way from room to
-room and looks around every half metre; its motion is known as well as registration tells it. Belief begins
-at the marked start and is weighed look by look: no search, no driving, nobody about. What is left is how
-well hypotheses predict what is seen and how a drawing's proportions change along the way, so that a setting
-of either (--settings, TOML) is judged on hundreds of walks in a minute.
+In the true worlds of six real buildings (worlds_from_logs) a robot is led along the shortest way from room to
+room, a scan every quarter metre; nobody drives, nobody is about. It is told its start on the drawing. What is
+left is how well the sensor model and the motion model follow a drawing whose proportions change on the way:
+a setting (--settings, TOML) is judged on hundreds of walks.
 
-A walk ends near if belief is within 1.5 m of the true place (carried over by the control points) or within
-10 % of the room's longer side, as for a drive; "on the way" is the share of looks within 3 m. Intervals are
-95 % bootstrap intervals over walks; seeds of one walk are averaged.
+A walk ends near if the estimate is within 1.5 m of the true place (carried over by the control points) or
+within 10 % of the room's longer side, as for a drive; "on the way" is the share of scans within 3 m.
+Intervals are 95 % bootstrap intervals over walks; seeds of one walk are averaged.
 """
 
 import argparse
-import json
 import math
-import os
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from multiprocessing import get_context
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import numpy as np
 
-from arguments import add_drawings, positive
-from drives import Job, destination_of, sites
-from errands import Errand, choose_errands
+from benchmarks.lib.arguments import add_drawings, add_jobs, positive
+from benchmarks.lib.data import TUNED
+from benchmarks.lib.drives import Job, destination_of, sites
+from benchmarks.lib.errands import Errand, choose_errands
+from benchmarks.lib.results import Figures
+from benchmarks.lib.sites import Drawing, Site, real_site
+from benchmarks.lib.tables import percent, percent_in, prose, table
 from pilotage.config import Settings, read_settings
 from pilotage.errors import PilotageError
 from pilotage.evaluation.intervals import bootstrap_interval
 from pilotage.geometry import Array, Pose2
-from pilotage.io.files import write_text
-from pilotage.localization import LocalizerSettings
-from pilotage.localization.belief import Belief
-from pilotage.localization.estimate import find_places
-from pilotage.localization.placement import place_at
-from pilotage.localization.proposals import propose_near
-from pilotage.localization.tracking import predict, thin, weigh
-from pilotage.localization.visibility import Look, VisibilityModel, look
+from pilotage.localization import Localizer, LocalizerSettings
+from pilotage.perception import LaserScan, Odometry
 from pilotage.simulation.laser import LaserSettings, sense
-from sites import DATA, TUNED, Drawing, Site, real_site
 
 ALL_AROUND = LaserSettings(beams=361, field_of_view=math.tau * 360 / 361)
 RADII = (0.4, 0.3, 0.2)  # [m] of the disc that takes the way: as far off the walls as there is space
-PLACE, TURN = 0.01, 0.004  # [m, rad] deviations of registered motion
+STEP = 0.25  # [m] between scans
+PLACE, TURN = 0.01, 0.004  # [m, rad] standard deviations of odometry, a step
 ON_THE_WAY = 3.0  # [m]
-
-Row = dict[str, object]
 
 
 @dataclass(frozen=True, eq=False)
 class Walk:
-    """What the robot sees on its way."""
+    """What the robot reads on its way."""
 
-    job: Job
-    poses: tuple[Pose2, ...]  # world_from_base at each look
-    motions: tuple[Pose2, ...]  # as registered, from look to look
-    looks: tuple[Look, ...]
+    poses: tuple[Pose2, ...]  # world_from_base at each scan
+    scans: tuple[LaserScan, ...]
+    odometry: tuple[Odometry, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """How far off belief was on a walk."""
+    """How far off the estimate was on a walk."""
 
     job: Job
     miss: float  # [m] at the end
     near: float  # share of seeds that ended near
-    on_the_way: float  # share of looks
-    ms: float  # [ms] a look
+    on_the_way: float  # share of scans
+    ms: float  # [ms] a scan
 
 
-def main() -> None:
-    """Follow all walks and print the table."""
-    arguments = parse()
-    settings = arguments.settings
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose walks and settings."""
+    add_drawings(parser)
+    parser.add_argument("--pairs", type=positive, default=16, help="walks a drawing (default: %(default)s)")
+    parser.add_argument("--seeds", type=positive, default=1, help="runs of each walk (default: %(default)s)")
+    parser.add_argument("--settings", type=settings_of, help="a file of settings, TOML")
+    add_jobs(parser)
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Follow all walks, print the table, and return the figures."""
+    settings = (arguments.settings or Settings()).localizer
     jobs = []
     for building in arguments.buildings:
         sites[building] = site = real_site(building)
@@ -90,33 +87,15 @@ def main() -> None:
             for hand in arguments.hands
             for number, errand in enumerate(errands)
         ]
-    follow(jobs[0], 1, settings.localizer)  # compiles what is compiled, once
     with ProcessPoolExecutor(arguments.jobs, mp_context=get_context("fork")) as pool:
-        work = partial(follow, seeds=arguments.seeds, settings=settings.localizer)
+        work = partial(walk, seeds=arguments.seeds, settings=settings)
         results = list(pool.map(work, jobs, chunksize=4))
     print(f"{'':24s} walks             near  miss [m]  on the way    ms")
     rows = {
         hand: hand_rows(hand, [one for one in results if one.job.hand == hand]) for hand in arguments.hands
     }
-    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings were held back")
-    if arguments.json:
-        write_text(arguments.json, json.dumps(rows, indent=1) + "\n")
-
-
-def parse() -> argparse.Namespace:
-    """Read the command line."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    add_drawings(parser)
-    parser.add_argument("--pairs", type=positive, default=24, help="walks a drawing (default: %(default)s)")
-    parser.add_argument("--seeds", type=positive, default=1, help="runs of each walk (default: %(default)s)")
-    parser.add_argument("--settings", type=settings_of, default=Settings(), help="a file of settings, TOML")
-    parser.add_argument("--jobs", type=positive, default=2, help="processes (default: %(default)s)")
-    arguments = parser.parse_args()
-    if not DATA.is_dir():
-        parser.error("the data folder is not there: ../shared/data beside the repository")
-    return arguments
+    print(f"  t: defaults were tuned on {', '.join(TUNED)}; the other buildings are held out")
+    return rows
 
 
 def settings_of(path: str) -> Settings:
@@ -127,12 +106,12 @@ def settings_of(path: str) -> Settings:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
-def follow(job: Job, seeds: int, settings: LocalizerSettings) -> Result:
-    """Carry belief along one walk, once for each seed."""
+def walk(job: Job, seeds: int, settings: LocalizerSettings) -> Result:
+    """Localize along one walk, once for each seed."""
     site = sites[job.site]
-    drawing, walk = site.drawing_by[job.hand], walk_of(job, site, settings)
+    drawing, walked = site.drawing_by[job.hand], walk_of(job, site)
     began = time.process_time()
-    misses = np.array([misses_of(walk, drawing, settings, seed) for seed in range(seeds)])
+    misses = np.array([misses_of(walked, drawing, settings, seed) for seed in range(seeds)])
     ms = 1e3 * (time.process_time() - began) / misses.size
     near = misses[:, -1] <= destination_of(job).tolerance
     return Result(
@@ -140,22 +119,24 @@ def follow(job: Job, seeds: int, settings: LocalizerSettings) -> Result:
     )
 
 
-def walk_of(job: Job, site: Site, settings: LocalizerSettings) -> Walk:
-    """Take the shortest way of an errand, and look around wherever belief is to be weighed."""
+def walk_of(job: Job, site: Site) -> Walk:
+    """Take the shortest way of an errand, a scan a step."""
     rng = np.random.default_rng(job.number)
-    poses = poses_along(way_of(job.errand, site), settings)
-    truly = [first.inverse() @ then for first, then in pairwise(poses)]
-    motions = [
-        Pose2(
+    poses = poses_along(way_of(job.errand, site))
+    odom_from_base = [Pose2.identity()]
+    for first, then in pairwise(poses):
+        motion = first.inverse() @ then
+        noisy = Pose2(
             motion.x + PLACE * rng.standard_normal(),
             motion.y + PLACE * rng.standard_normal(),
             motion.theta + TURN * rng.standard_normal(),
         )
-        for motion in truly
-    ]
-    scans = [sense(site.world, pose, float(index), rng, ALL_AROUND) for index, pose in enumerate(poses)]
-    looks = tuple(look(scan, settings.visibility) for scan in scans)
-    return Walk(job, tuple(poses), tuple(motions), looks)
+        odom_from_base.append(odom_from_base[-1] @ noisy)
+    return Walk(
+        tuple(poses),
+        tuple(sense(site.world, pose, float(k), rng, ALL_AROUND) for k, pose in enumerate(poses)),
+        tuple(Odometry(float(k), pose) for k, pose in enumerate(odom_from_base)),
+    )
 
 
 def way_of(errand: Errand, site: Site) -> Array:
@@ -164,43 +145,32 @@ def way_of(errand: Errand, site: Site) -> Array:
     return next(way for way in ways if len(way) > 0)
 
 
-def poses_along(way: Array, settings: LocalizerSettings) -> list[Pose2]:
-    """Stand where belief is to be weighed on a way (n, 2) [m], the look ahead."""
+def poses_along(way: Array) -> list[Pose2]:
+    """Stand a step apart on a way (n, 2) [m], looking ahead."""
     lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))])
 
     def at(length: Array) -> Array:
         return np.column_stack([np.interp(length, lengths, way[:, axis]) for axis in (0, 1)])
 
-    steps = np.arange(0.0, lengths[-1], settings.step / 2.0)
+    steps = np.arange(0.0, lengths[-1], STEP)
     ahead = at(np.minimum(steps + 0.4, lengths[-1])) - at(np.maximum(steps - 0.1, 0.0))
     headings = np.arctan2(ahead[:, 1], ahead[:, 0])
-    poses: list[Pose2] = []
-    for (x, y), heading in zip(at(steps).tolist(), headings.tolist(), strict=True):
-        pose = Pose2(x, y, heading)
-        if not poses or settings.is_due(poses[-1].inverse() @ pose):
-            poses.append(pose)
-    return poses
+    return [
+        Pose2(x, y, heading) for (x, y), heading in zip(at(steps).tolist(), headings.tolist(), strict=True)
+    ]
 
 
-def misses_of(walk: Walk, drawing: Drawing, settings: LocalizerSettings, seed: int) -> Array:
-    """Measure how far off belief is at each look of a walk, (n,) [m]."""
-    rng = np.random.default_rng([seed, walk.job.number])
-    atlas, tracking, estimate = drawing.atlas, settings.tracking, replace(settings.estimate, hypotheses=1)
-    model = VisibilityModel(atlas, settings.visibility)
-    start = drawing.warp.sketch_from_base(walk.poses[0]).pose
-    count = settings.incumbent.count
-    belief = Belief(propose_near(start, atlas, tracking.prior, count, rng), np.zeros(count))
+def misses_of(walked: Walk, drawing: Drawing, settings: LocalizerSettings, seed: int) -> Array:
+    """Measure how far off the estimate is at each scan of a walk, (n,) [m]."""
+    sketch = drawing.atlas.sketch
+    marked = drawing.warp.sketch_from_base(walked.poses[0]).pose
+    x, y = sketch.file_from_sketch(np.array([marked.position]))[0].tolist()
+    localizer = Localizer(drawing.atlas, settings, seed=seed, start=(x, y, marked.theta))
     misses = []
-    for index, (pose, seen) in enumerate(zip(walk.poses, walk.looks, strict=True)):
-        news = 1.0
-        if index > 0:
-            motion = walk.motions[index - 1]
-            belief = predict(belief, motion, atlas, tracking, rng)
-            news = settings.news_in(motion)
-        belief = thin(weigh(belief, seen, model, news=news), tracking, rng)
-        at = find_places(belief, atlas, estimate)[0].sketch_from_base.pose
-        placed = place_at(belief, (at.x, at.y), estimate.jump).position
-        misses.append(miss_of(np.array(placed), pose, drawing))
+    for pose, scan, odometry in zip(walked.poses, walked.scans, walked.odometry, strict=True):
+        estimate = localizer.update(scan, odometry)
+        placed = sketch.sketch_from_file(np.array([(estimate.x, estimate.y)]))[0]
+        misses.append(miss_of(placed, pose, drawing))
     return np.array(misses)
 
 
@@ -216,7 +186,7 @@ def miss_of(placed: Array, world_from_base: Pose2, drawing: Drawing) -> float:
     return float(np.hypot(*np.linalg.solve(linear, placed - here)))
 
 
-def hand_rows(hand: str, results: Sequence[Result]) -> Row:
+def hand_rows(hand: str, results: Sequence[Result]) -> Figures:
     """Print the lines of a hand, building by building, and return its figures."""
     buildings = {}
     for building in dict.fromkeys(one.job.site for one in results):
@@ -225,18 +195,18 @@ def hand_rows(hand: str, results: Sequence[Result]) -> Row:
             f"{mark} {building}", [one for one in results if one.job.site == building]
         )
     row = {**row_of(f"  {hand}, all", results), "buildings": buildings}
-    for name, is_tuned in (("tuned", True), ("held_back", False)):
+    for name, is_tuned in (("tuned", True), ("held_out", False)):
         part = [one for one in results if (one.job.site in TUNED) == is_tuned]
         if part:
             row[name] = row_of(f"  {hand}, {name.replace('_', ' ')}", part)
     return row
 
 
-def row_of(title: str, results: Sequence[Result]) -> Row:
+def row_of(title: str, results: Sequence[Result]) -> Figures:
     """Print one line of the table and return its figures."""
     near = [one.near for one in results]
     low, high = bootstrap_interval(near, np.random.default_rng(0))
-    row: Row = {
+    row: Figures = {
         "walks": len(results),
         "near": float(np.mean(near)),
         "near_interval": (low, high),
@@ -252,5 +222,37 @@ def row_of(title: str, results: Sequence[Result]) -> Row:
     return row
 
 
-if __name__ == "__main__":
-    main()
+def render(figures: Figures) -> str:
+    """Write the table of README."""
+    rows = [
+        (
+            f"`{hand}`",
+            str(row["walks"]),
+            percent_in(row["near"], row["near_interval"]),
+            percent(row["held_out"]["near"]) if "held_out" in row else "-",
+            f"{row['miss_median']:.2f} m",
+            percent(row["on_the_way"]),
+        )
+        for hand, row in figures.items()
+    ]
+    return "\n".join(
+        [
+            prose(
+                "A robot that is told its start is led from room to room; it ends near if its estimate is"
+                " within"
+                " 1.5 m of the true place, or within 10 % of the room's longer side."
+            ),
+            "",
+            table(
+                (
+                    "drawings",
+                    "walks",
+                    "ends near",
+                    "of these in held-out buildings",
+                    "off at the end, median",
+                    "scans within 3 m",
+                ),
+                rows,
+            ),
+        ]
+    )

@@ -1,6 +1,6 @@
 """Make a true world of each real building from its log: all scans laid at the true poses, then cleaned.
 
-    python benchmarks/worlds_from_logs.py [--output DIR] [--buildings A,B]
+    python -m benchmarks worlds_from_logs [--buildings A,B] [--output DIR]
 
 A world is a map_server map in the frame of the true trajectory: `<building>.yaml` and `<building>.png`, free
 254, occupied 0, unknown 205 (solid for a simulator), 0.05 m a pixel. The scans are others' data, so worlds go
@@ -11,47 +11,40 @@ out within 0.2 m of the log, among those that returned within 25 m.
 """
 
 import argparse
-import os
 import time
 from pathlib import Path
 
 import numpy as np
-import platformdirs
-from PIL import Image
 
-from occupancy import PIXEL, REACH, Plan, path_pixels, plan_of
-from pilotage.evaluation.trajectory import associate, thin
+from benchmarks.lib.arguments import names_of
+from benchmarks.lib.data import BUILDINGS
+from benchmarks.lib.occupancy import PIXEL, REACH, Plan, path_pixels, plan_of
+from benchmarks.lib.results import Figures
+from benchmarks.lib.worlds import CACHE, read_scans, write_world
 from pilotage.geometry import Pose2
-from pilotage.io import open_log
-from pilotage.io.files import replacing, write_text
-from pilotage.io.tum import read_trajectory
 from pilotage.perception import LaserScan
 
-LOGS = Path(__file__).resolve().parents[1] / ".." / "shared" / "data" / "logs"
-BUILDINGS = ("aces", "belgioioso", "csail", "fhw", "freiburg-079", "freiburg-101")
-CACHE = platformdirs.user_cache_path("pilotage") / "worlds"
-FREE, UNKNOWN, OCCUPIED = 254, 205, 0
-MIN_DISTANCE, MIN_TURN = 0.1, np.radians(5.0)  # [m, rad] between scans, so that standing still counts once
 NEAR = 0.2  # [m] a beam that errs by no more is reproduced
 CHECKED = 200  # scans of a log at most are taken again
 
-Scans = tuple[list[LaserScan], list[Pose2]]
 
-
-def main() -> None:
-    """Make the worlds and print a line for each."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose buildings, and where the worlds go."""
+    parser.add_argument(
+        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
+    )
     parser.add_argument(
         "--output", type=Path, default=CACHE, help="folder of the worlds (default: %(default)s)"
     )
-    parser.add_argument("--buildings", default=",".join(BUILDINGS), help="(default: %(default)s)")
-    arguments = parser.parse_args()
-    if not LOGS.is_dir():
-        parser.error("the logs are not there: ../shared/data/logs beside the repository")
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Make the worlds, print a line for each, and return the figures."""
+    figures: Figures = {}
     print(
         f"{'building':13s}{'scans':>6s}{'pixels':>12s}{'free m2':>9s}{'path free':>10s}{'beams':>7s}{'s':>6s}"
     )
-    for building in arguments.buildings.split(","):
+    for building in arguments.buildings:
         began = time.perf_counter()
         scans, poses = read_scans(building)
         plan = plan_of(scans, poses)
@@ -60,43 +53,12 @@ def main() -> None:
         size = "{1} x {0}".format(*plan.free.shape)
         free = plan.free.sum() * PIXEL**2
         path, beams = share_of_path_free(plan, poses), share_reproduced(plan, scans, poses)
+        figures[building] = {"path_free": path, "beams_reproduced": beams}
         print(
             f"{building:13s}{len(scans):6d}{size:>12s}{free:9.0f}{path:10.3f}{beams:7.2f}{elapsed:6.1f}",
             flush=True,
         )
-
-
-def world_of(building: str, folder: Path = CACHE) -> Path:
-    """Return the YAML file of a building's world; make it if it is not there yet."""
-    path = folder / f"{building}.yaml"
-    if not path.exists():
-        write_world(plan_of(*read_scans(building)), path)
-    return path
-
-
-def read_scans(building: str) -> Scans:
-    """Read the scans of a building and their true poses, thinned to those that tell something new."""
-    log = open_log(LOGS / f"{building}.log.gz")
-    truth = read_trajectory(LOGS / f"{building}.truth.tum")
-    indices = associate(np.array([reading.scan.stamp for reading in log]), truth)
-    poses = [truth.pose(index) for index in indices]
-    kept = thin(poses, MIN_DISTANCE, MIN_TURN)
-    return [log.readings[index].scan for index in kept], [poses[index] for index in kept]
-
-
-def write_world(plan: Plan, path: Path) -> None:
-    """Write the picture and, last, the YAML file that names it."""
-    shades = np.full(plan.free.shape, UNKNOWN, dtype=np.uint8)
-    shades[plan.free] = FREE
-    shades[plan.occupied] = OCCUPIED
-    picture = path.with_suffix(".png")
-    with replacing(picture) as beside:
-        Image.fromarray(shades[::-1]).save(beside)
-    write_text(
-        path,
-        f"image: {picture.name}\nmode: trinary\nresolution: {PIXEL}\n"
-        f"origin: [{plan.left}, {plan.bottom}, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-    )
+    return figures
 
 
 def share_of_path_free(plan: Plan, poses: list[Pose2]) -> float:
@@ -114,8 +76,3 @@ def share_reproduced(plan: Plan, scans: list[LaserScan], poses: list[Pose2]) -> 
         measured = plan.ranges(poses[index] @ scan.base_from_laser, scan.directions[returned])
         near.append(np.abs(measured - scan.ranges[returned]) <= NEAR)
     return float(np.concatenate(near).mean())
-
-
-if __name__ == "__main__":
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    main()

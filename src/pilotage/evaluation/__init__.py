@@ -1,1 +1,1 @@
-"""Scores with units and intervals, runs with seeds."""
+"""Scores against the truth, with units and intervals; all randomness comes from seeds."""

@@ -1,4 +1,4 @@
-"""How sure a mean or a median is."""
+"""Confidence intervals of means, medians and other statistics."""
 
 from collections.abc import Callable
 from typing import SupportsFloat

@@ -11,6 +11,8 @@ import shapely
 from pilotage.errors import FileError
 from pilotage.geometry import Array
 
+MALFORMED = (KeyError, TypeError, AttributeError, ValueError, shapely.errors.ShapelyError)
+
 
 @dataclass(frozen=True, eq=False)
 class Rooms:
@@ -34,22 +36,28 @@ class Rooms:
 
 def read_world_rooms(path: Path) -> Rooms:
     """Read the rooms of a building from GeoJSON, in metres of the truth trajectory."""
-    features = read_json(path)["features"]
-    return Rooms(
-        tuple(feature["properties"]["name"] for feature in features),
-        tuple(shapely.Polygon(*feature["geometry"]["coordinates"][:1]) for feature in features),
-    )
+    try:
+        features = read_json(path)["features"]
+        return Rooms(
+            tuple(feature["properties"]["name"] for feature in features),
+            tuple(shapely.Polygon(*feature["geometry"]["coordinates"][:1]) for feature in features),
+        )
+    except MALFORMED as error:
+        raise FileError(f"rooms are features with a name and a polygon ({error!r})", path) from error
 
 
 def read_drawn_rooms(path: Path) -> Rooms:
     """Read the rooms that a drawing shows, in the units and axes of its file."""
-    rooms = read_json(path)["rooms"]
-    return Rooms(tuple(rooms), tuple(shapely.Polygon(outline) for outline in rooms.values()))
+    try:
+        rooms = read_json(path)["rooms"]
+        return Rooms(tuple(rooms), tuple(shapely.Polygon(outline) for outline in rooms.values()))
+    except MALFORMED as error:
+        raise FileError(f"`rooms` holds an outline for each name ({error!r})", path) from error
 
 
 def read_json(path: Path) -> dict:  # type: ignore[type-arg]  # of any shape
     """Read a JSON object."""
     try:
         return dict(json.loads(path.read_text()))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError, TypeError) as error:
         raise FileError(f"cannot be read as JSON ({error})", path) from error

@@ -1,4 +1,4 @@
-"""Score motion: associate by stamp, thin, spoil, and compare with the truth."""
+"""Score motion: associate by stamp, thin, add noise, and compare with the truth."""
 
 import itertools
 import math
@@ -16,8 +16,8 @@ STAMP_TOLERANCE = 1e-3  # [s] stamps are written to microseconds at best
 def associate(stamps: Array, truth: Trajectory) -> NDArray[np.intp]:
     """Find for each stamp the index of the true pose taken then, (n,).
 
-    Stamps that occur several times are taken in turn. Trajectories of equal length whose stamps do not agree
-    are taken index by index; else a stamp without a true pose is an error.
+    Equal stamps are associated in order. Trajectories of equal length whose stamps do not agree are
+    associated index by index; otherwise a stamp without a true pose is an error.
 
     >>> truth = Trajectory([1.0, 2.0, 2.0, 3.0], np.zeros((4, 3)))
     >>> associate(np.array([2.0, 2.0, 3.0]), truth).tolist()

@@ -15,9 +15,9 @@ from pilotage.geometry import Array, Pose2, Similarity2, frozen_points
 from pilotage.maps import SchematicMap
 
 LEAST_HEIGHT = 0.3
-"""Flatter triangles [m] along a straight wall are left out: their maps mean nothing."""
+"""Triangles flatter than this [m], along a straight wall, are left out: their maps mean nothing."""
 MOST_STRETCH = 12.0
-"""Triangles that the drawing stretches more are left out on the way back."""
+"""Triangles that the drawing stretches by more than this ratio are left out on the way back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ class Warp:
     in_sketch: Array
 
     def __post_init__(self) -> None:
-        """Copy and freeze the points; refuse too few, and such as do not span a plane."""
+        """Copy and freeze the points; reject fewer than three, and points on a line."""
         for name in ("in_world", "in_sketch"):
             object.__setattr__(self, name, frozen_points(getattr(self, name), name=name, at_least=3))
         if len(self.in_world) != len(self.in_sketch):
@@ -107,7 +107,7 @@ class Warp:
         return self.back.carry(points)
 
     def sketch_from_base(self, world_from_base: Pose2) -> Similarity2:
-        """Tell where on the drawing a robot stands, which way it looks there, and the local scale."""
+        """Return where on the drawing a robot stands, its heading there, and the local scale."""
         here = np.array([world_from_base.position])
         linear = self.there.maps[self.there.nearest(here)[0], :2]
         x, y = self.sketch_from_world(here)[0].tolist()

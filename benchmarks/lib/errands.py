@@ -1,4 +1,4 @@
-"""Choose where to send a robot: from room to room, spread over a building, the same for all its drawings."""
+"""Choose errands from room to room, spread over a building, the same for all its drawings."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -7,9 +7,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from benchmarks.lib.sites import Site
 from pilotage.geometry import Array, Pose2
 from pilotage.simulation import BodySettings
-from sites import Site
 
 RADIUS = BodySettings().radius
 CLEARANCE = 0.3  # [m] about start and goal
@@ -31,7 +31,7 @@ class Errand:
 
 
 def choose_errands(site: Site, count: int, seed: int) -> list[Errand]:
-    """Choose up to so many pairs of rooms, each room as seldom as may be.
+    """Choose up to `count` pairs of rooms, using each room about equally often.
 
     Starts are places chosen at random, goals those deepest inside their rooms; both are drawn by every hand
     in the room where they truly are.
@@ -72,7 +72,7 @@ def errand_between(
 ) -> Errand | None:
     """Choose places in two rooms; None if no way leads from one to the other, or too short a one.
 
-    What the program makes of the drawings decides as little as may be: a better one gets the same errands.
+    The choice depends as little as possible on the program under test, so that errands stay comparable.
     """
     starts, goals = (site.poses[members[room]] for room in pair)
     starts = in_cells(site, rng.permutation(starts))

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from errands import Errand
+from benchmarks.lib.errands import Errand
+from benchmarks.lib.sites import Site
 from pilotage.config import Settings
 from pilotage.drives import Drive, navigate
 from pilotage.evaluation.drive import Destination, DriveScore, score
 from pilotage.geometry import Array
 from pilotage.io.journal import journal_file
-from sites import Site
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a drive."""
+    """The result of a drive."""
 
     job: Job
     score: DriveScore | None  # None if the program failed
@@ -43,7 +43,7 @@ class Result:
     right_room: float  # share of steps, nan if none was in a drawn room
     step_ms: Array  # (n,) [ms]
     seconds: float
-    complaint: str = ""  # what the program says of itself, if it failed
+    complaint: str = ""  # the error, if the program failed
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def make(job: Job, options: Options) -> Result:
 
 
 def complain(job: Job, error: Exception) -> str:
-    """Print where the program failed; return what it says."""
+    """Print where the program failed; return its error message."""
     print(f"{job.name}: {''.join(traceback.format_exception(error))}", file=sys.stderr, flush=True)
     return f"failed: {traceback.format_exception_only(error)[-1].strip()}"
 
@@ -114,7 +114,7 @@ def write_down(job: Job, options: Options, driven: Drive, reason: str) -> None:
             for step, scene in zip(driven.steps, driven.scenes, strict=True):
                 write(step, scene)
     if options.figure:
-        from drive_picture import write_picture
+        from benchmarks.lib.drive_picture import write_picture
 
         title = f"{job.name}: {errand.start_room} to {errand.goal_room}: {reason}"
         write_picture(

@@ -9,6 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from benchmarks.lib.data import DATA, HANDS, LOGS, PACKED_HANDS
+from benchmarks.lib.worlds import world_of
 from pilotage.evaluation.rooms import Rooms, read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.warp import Warp, read_warp
 from pilotage.geometry import Array
@@ -17,13 +19,7 @@ from pilotage.io.tum import read_trajectory
 from pilotage.maps import Atlas, AtlasSettings, build_atlas
 from pilotage.simulation import World
 from pilotage.worlds import PackedWorld
-from worlds_from_logs import world_of
 
-DATA = Path(__file__).resolve().parents[1] / ".." / "shared" / "data"
-BUILDINGS = ("aces", "belgioioso", "csail", "fhw", "freiburg-079", "freiburg-101")
-TUNED = ("aces", "belgioioso", "csail", "freiburg-079")
-HANDS = ("draftsman", "quick", "schematic")
-PACKED_HANDS = ("careful", "quick")
 SAMPLES = 4000  # random poses of which those are kept that a robot can stand at
 THERE_AND_BACK = 0.1  # [m] a place that the drawing folds over comes back from it farther off
 
@@ -87,7 +83,7 @@ def real_site(building: str) -> Site:
         building,
         open_world(world_of(building)),
         read_world_rooms(folder / "rooms.geojson"),
-        read_trajectory(DATA / "logs" / f"{building}.truth.tum").poses,
+        read_trajectory(LOGS / f"{building}.truth.tum").poses,
         tuple(Drawing.read(folder / f"{hand}.svg") for hand in HANDS),
     )
 

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.patches import Circle, Polygon
 
-from errands import Errand
+from benchmarks.lib.errands import Errand
+from benchmarks.lib.sites import Drawing, Site
 from pilotage.drives import Drive
 from pilotage.evaluation.drive import Destination
 from pilotage.figures import style
 from pilotage.figures.drive import drive_figure
-from sites import Drawing, Site
 
 
 def write_picture(

@@ -1,0 +1,1 @@
+"""What several benchmarks share: data, buildings, errands, protocols, arguments and results."""
