@@ -12,20 +12,20 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.drives import Drive, navigate
     from pilotage.errors import FileError, PilotageError, SettingsError
-    from pilotage.geometry import Pose2, Similarity2, Twist
+    from pilotage.geometry import Affine2, Pose2, Similarity2, Twist
     from pilotage.io import open_log, open_map, open_world
-    from pilotage.localization import Estimate, Hypothesis, Localizer, LocalizerSettings, Status
+    from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
     from pilotage.maps import SchematicMap
     from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Step
     from pilotage.perception import LaserScan, Odometry, Reading
     from pilotage.simulation import World
 
 __all__ = [
+    "Affine2",
     "Behavior",
     "Drive",
     "Estimate",
     "FileError",
-    "Hypothesis",
     "LaserScan",
     "Localizer",
     "LocalizerSettings",
@@ -35,6 +35,7 @@ __all__ = [
     "Outcome",
     "PilotageError",
     "Pose2",
+    "PoseHypothesis",
     "Reading",
     "SchematicMap",
     "Settings",
@@ -54,9 +55,9 @@ HOMES = {
     "config": ("Settings",),
     "drives": ("Drive", "navigate"),
     "errors": ("FileError", "PilotageError", "SettingsError"),
-    "geometry": ("Pose2", "Similarity2", "Twist"),
+    "geometry": ("Affine2", "Pose2", "Similarity2", "Twist"),
     "io": ("open_log", "open_map", "open_world"),
-    "localization": ("Estimate", "Hypothesis", "Localizer", "LocalizerSettings", "Status"),
+    "localization": ("Estimate", "Localizer", "LocalizerSettings", "PoseHypothesis", "Status"),
     "maps": ("SchematicMap",),
     "navigation": ("Behavior", "Navigator", "NavigatorSettings", "Outcome", "Step"),
     "perception": ("LaserScan", "Odometry", "Reading"),

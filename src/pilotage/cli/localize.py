@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from pilotage.cli.places import pose_on
+from pilotage.cli.places import parse_pose
 from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
 from pilotage.cli.terminal import refuse_existing, say
 
@@ -43,10 +43,10 @@ def localize(
     """Tell for every scan of a log where on the drawing the robot was.
 
     The drawing needs no scale and no start. Estimates are JSON Lines, one object a scan:
-    *status* located or lost, the *cell* it is in, *x* and
+    *status* located, lost or mismatch, the *place* and *cell* it is in, *x* and
     *y* in the drawing's own units and axes (in SVG, y points down), *heading*
     in radians counter-clockwise on the page, *scale* in drawing units per metre,
-    *confidence* from 0 to 1, and the *hypotheses* it holds.
+    *probability* and *fit* from 0 to 1, and the *hypotheses* it holds.
 
     **Examples:**
 
@@ -59,7 +59,7 @@ def localize(
     from pilotage.io import open_map
 
     sketch = open_map(drawing)
-    known = None if start is None else pose_on(sketch, start, "--start")
+    known = None if start is None else parse_pose(start, "--start")
     readings = read_stretch(log, first, last)
     localizer = open_localizer(sketch, settings, seed, known, scale)
     with estimates_sink(output, sketch) as write:

@@ -10,7 +10,7 @@ from pilotage.cli.terminal import busy, say, track
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.geometry import Array, Pose2
+    from pilotage.geometry import Array
     from pilotage.localization import Estimate, Localizer
     from pilotage.maps import SchematicMap
     from pilotage.perception import Reading
@@ -30,7 +30,11 @@ def read_stretch(log: Path, first: int, last: int | None) -> "Sequence[Reading]"
 
 
 def open_localizer(
-    sketch: "SchematicMap", settings: Path | None, seed: int, start: "Pose2 | None", scale: float | None
+    sketch: "SchematicMap",
+    settings: Path | None,
+    seed: int,
+    start: "tuple[float, float, float] | None",
+    scale: float | None,
 ) -> "Localizer":
     """Prepare the drawing."""
     from pilotage.localization import Localizer, LocalizerSettings
@@ -99,7 +103,7 @@ def summary(estimates: "Sequence[Estimate]") -> str:
         return f"{count}: lost in all of them."
     final = estimates[-1]
     end = (
-        f"in {final.cell_id} with confidence {final.confidence:.2f}"
+        f"in {final.place} with probability {final.probability:.2f}"
         if final.status is Status.LOCATED
         else "lost"
     )

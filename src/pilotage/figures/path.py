@@ -81,9 +81,9 @@ def draw_page(axes: Axes, sketch: SchematicMap, estimates: Sequence[Estimate], t
 
 
 def draw_path(axes: Axes, estimates: Sequence[Estimate], jump: float) -> None:
-    """Draw located parts as a line colored by confidence, lost ones as faint crosses; jumps are left open."""
+    """Draw located parts as a line colored by probability, lost ones as faint crosses; jumps are gaps."""
     positions = np.array([estimate.sketch_from_base.pose.position for estimate in estimates])
-    confidence = np.array([estimate.confidence for estimate in estimates])
+    confidence = np.array([estimate.probability for estimate in estimates])
     located = np.array([estimate.status is Status.LOCATED for estimate in estimates])
     pieces = np.stack([positions[:-1], positions[1:]], axis=1)
     steps = np.hypot(*(positions[1:] - positions[:-1]).T)

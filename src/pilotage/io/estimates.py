@@ -26,9 +26,11 @@ def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, objec
     return {
         "stamp": estimate.stamp,
         "status": estimate.status.value,
+        "place": estimate.place,
         "cell": estimate.cell_id,
         **place_record(estimate.sketch_from_base, sketch),
-        "confidence": rounded(estimate.confidence),
+        "probability": rounded(estimate.probability),
+        "fit": rounded(estimate.fit),
         "hypotheses": [
             {
                 "cell": hypothesis.cell_id,

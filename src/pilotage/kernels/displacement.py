@@ -1,10 +1,11 @@
-"""Displacements of the robot carried to the sketch, for many hypotheses at once."""
+"""Displacements of the robot carried to the sketch, for many particles at once."""
 
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 
 @njit(cache=True)

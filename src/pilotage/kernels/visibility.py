@@ -1,6 +1,6 @@
-"""How well what a scan shows agrees with what could be seen on the drawing, for many hypotheses at once.
+"""How well what a scan shows agrees with what could be seen on the drawing, for many particles at once.
 
-A hypothesis is a column of `states` (6, n): x, y [drawing units], heading [rad], log scale [log drawing units
+A particle is a column of `states` (6, n): x, y [drawing units], heading [rad], log scale [log drawing units
 per metre], and the stretch (p, q): a point of the robot's frame is carried to the sketch by
 
     (x, y) + exp(log_scale) * exp([[p, q], [q, -p]]) @ R(heading) @ point.
@@ -11,13 +11,14 @@ All logarithms of lengths are whole numbers of `LOG_STEP`, so that one look-up r
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from pilotage.kernels.compiling import njit
 
 LOG_STEP = 0.03  # 3 % of a range, a fifth of the deviation that a careful drawing has
 LOG_ZERO = 80  # level of a range of one grid cell; level 0 is a hundredth of that, 255 almost 200 cells
 NO_RETURN = 32767  # level of a beam that did not come back
-HEADINGS = 240  # directions before stretching: 1.5 degrees, a third of the step between the beams of a look
+HEADINGS = 240  # directions before stretching: steps of 1.5 degrees
 STRETCHES = 9  # levels of p and of q
 MAX_STRETCH = 0.8  # of p and of q: lengths up to 2.2 times too long one way and too short the other
 
@@ -55,53 +56,53 @@ def stretch_level(stretch: float) -> int:
 
 
 @njit(cache=True)
-def score_hypotheses(
+def sum_over_beams(
     states: NDArray[np.float64],
-    beams: NDArray[np.int32],
-    levels: NDArray[np.int32],
+    scan: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]],
     log_ranges: NDArray[np.uint8],
     grid: tuple[float, float, float, int, int],
     tables: tuple[NDArray[np.int16], NDArray[np.int16]],
-    log_likelihoods: NDArray[np.float32],
+    values: NDArray[np.float32],
     no_return: tuple[int, float],
     outside: float,
 ) -> NDArray[np.float64]:
-    """Sum over beams the log-likelihood of the measured range where each hypothesis stands, (n,).
+    """Sum over beams a value of the measured and the predicted range, for each particle, (n,).
 
-    `beams` (m,) are directions in the robot's frame, 0 .. HEADINGS - 1 steps, `levels` (m,) the measured
-    ranges as log metres in steps of LOG_STEP, or NO_RETURN. `log_ranges` (columns * rows, directions) is the
-    drawing's range table on the grid (left, bottom, cell size, columns, rows). `log_likelihoods` (2 k + 1,)
-    is indexed by k + log(predicted / measured) in steps of LOG_STEP. A beam that did not come back costs
-    `no_return[1]` where a wall is predicted nearer than level `no_return[0]`. A hypothesis off the grid gets
-    `outside` for each beam.
+    `scan` holds, each (m,): directions in the robot's frame, 0 .. HEADINGS - 1 steps; measured ranges as log
+    metres in steps of LOG_STEP, or NO_RETURN; and classes of ranges. `log_ranges` (columns * rows,
+    directions) is the drawing's range table on the grid (left, bottom, cell size, columns, rows).
+    `values` (classes, 2 k + 1) is indexed by the class and by k + log(predicted / measured) in steps of
+    LOG_STEP. A beam that did not return counts `no_return[1]` where a wall is predicted nearer than level
+    `no_return[0]`, else 0. A particle off the grid gets `outside` for each beam.
     """
+    beams, levels, classes = scan
     left, bottom, cell, columns, rows = grid
     turned, lengthened = tables
-    scores = np.empty(states.shape[1])
-    widest = np.int32((len(log_likelihoods) - 1) // 2)
+    sums = np.empty(states.shape[1])
+    widest = np.int32((values.shape[1] - 1) // 2)
     log_cell = math.log(cell)
     for i in range(states.shape[1]):
         column = math.floor((states[0, i] - left) / cell)
         row = math.floor((states[1, i] - bottom) / cell)
         if not (0 <= column < columns and 0 <= row < rows):
-            scores[i] = outside * len(beams)
+            sums[i] = outside * len(beams)
             continue
         ranges = log_ranges[column * rows + row]
         level_p, level_q = stretch_level(states[4, i]), stretch_level(states[5, i])
         directions, lengths = turned[level_p, level_q], lengthened[level_p, level_q]
         heading = math.floor(states[2, i] / math.tau * HEADINGS + 0.5) % HEADINGS
         shift = np.int32(round((log_cell - states[3, i]) / LOG_STEP) - LOG_ZERO)
-        score = np.float32(0.0)
+        total = np.float32(0.0)
         for j in range(len(beams)):
             direction = heading + beams[j]
             predicted = np.int32(ranges[directions[direction]]) + shift - np.int32(lengths[direction])
             if levels[j] == NO_RETURN:
                 if predicted < no_return[0]:
-                    score += no_return[1]
+                    total += no_return[1]
             else:
-                score += log_likelihoods[min(max(predicted - levels[j], -widest), widest) + widest]
-        scores[i] = score
-    return scores
+                total += values[classes[j], min(max(predicted - levels[j], -widest), widest) + widest]
+        sums[i] = total
+    return sums
 
 
 @njit(cache=True)

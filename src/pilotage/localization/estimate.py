@@ -1,213 +1,220 @@
-"""What is claimed of the robot's place: never one global pose, but a place and a local similarity."""
+"""What the localizer says: where the robot is on the drawing, how probable that is, and whether it fits."""
 
 import math
 from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Similarity2
-from pilotage.localization.belief import LOG_SCALE, Belief, X, Y, mean_state, similarity_of
+from pilotage.geometry import Affine2, Array, Pose2
+from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state
+from pilotage.localization.tracks import Tracks
 from pilotage.maps import Atlas
 
-TRACE = 1e-3
-"""Share of belief in a block and its neighbors from which on it is held possible at all."""
+RADIUS = 2.0
+"""[m] Particles within this distance of the densest point are one hypothesis."""
+BLOCK = 1.0
+"""[m] The densest point is sought over three by three blocks of this size."""
+MAX_HYPOTHESES = 5
+"""Number of hypotheses that are told, at most."""
+MIN_PROBABILITY = 0.02
+"""Probability of a further hypothesis that is worth telling."""
+
+MORE_PROBABLE_THAN_NOT = 0.5
+"""Probability from which on the robot claims a place, or that the drawing is of another building."""
+
+MISMATCH_AFTER = 10.0
+"""[m] of travel before which the robot never claims that the drawing is of another building."""
+
+CALIBRATION = (-0.26, 0.55)
+"""A probability with log-odds x is told as one with log-odds a + b x. The filter counts the errors of a
+drawing, which persist for metres, as independent from keyframe to keyframe, so its log-odds are too large.
+Fitted by maximum likelihood on aces, belgioioso, csail and freiburg-079."""
 
 
 class Status(Enum):
-    """Whether the robot claims to know where it is."""
+    """Whether the robot knows where it is."""
 
-    LOCATED = "located"
-    LOST = "lost"
-    MISMATCH = "mismatch"
+    LOCATED = "located"  # one hypothesis is more probable than not
+    LOST = "lost"  # the estimate is a best guess
+    MISMATCH = "mismatch"  # probably this drawing is not of this building
 
 
-@dataclass(frozen=True, slots=True)
-class Hypothesis:
-    """One place where the robot may be."""
+@dataclass(frozen=True)
+class PoseHypothesis:
+    """A cluster of particles: one place where the robot may be."""
 
     cell_id: str  # empty if the drawing has no cells
-    sketch_from_base: Similarity2  # of the surroundings; y up [drawing units per metre]
+    sketch_from_base: Affine2  # robot frame [m] to sketch (y up) [drawing units]; holds near the robot only
     probability: float  # [0..1]
+    position_std: float = 0.0  # [m] root mean square distance of the particles from their mean
+    position_axis: tuple[float, float] = (
+        0.0,
+        0.0,
+    )  # of the largest spread, as long as it [drawing units]
+
+    def moved(self, motion: Pose2, atlas: Atlas | None = None) -> "PoseHypothesis":
+        """Carry the hypothesis along by a motion in the robot's frame."""
+        sketch_from_base = self.sketch_from_base @ motion
+        pose = sketch_from_base.pose
+        cell_id = self.cell_id if atlas is None else atlas.cell_at((pose.x, pose.y))
+        return replace(self, cell_id=cell_id, sketch_from_base=sketch_from_base)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Estimate:
-    """Where the robot is on the drawing, as far as a scan can tell; the best guess even when lost."""
+    """Where the robot is on the drawing; `x`, `y` in the units and axes of its file."""
 
     stamp: float  # [s]
     status: Status
-    cell_id: str
-    sketch_from_base: Similarity2
-    confidence: float  # [0..1] probability that the robot is at this place
-    hypotheses: tuple[Hypothesis, ...] = ()  # the most probable first
+    hypotheses: tuple[PoseHypothesis, ...]  # the most probable first, at least one
+    cell_probability: float  # [0..1] that the robot is in the cell of the first hypothesis, anywhere in it
+    fit: float  # [0..1] share of what was seen over the last metres that shows the drawn walls
+    place: str  # the label of the cell if it has one, else its id
+    x: float  # [drawing units]
+    y: float  # [drawing units]
+    heading: float  # [rad] counter-clockwise on the page from its x axis
+    scale: float  # [drawing units per metre]
+    y_down: bool = False  # whether the y axis of the file points down
+
+    @property
+    def probability(self) -> float:
+        """Probability of the first hypothesis, [0..1]."""
+        return self.hypotheses[0].probability
+
+    @property
+    def cell_id(self) -> str:
+        """Cell of the first hypothesis."""
+        return self.hypotheses[0].cell_id
+
+    @property
+    def sketch_from_base(self) -> Affine2:
+        """Local affine map of the first hypothesis."""
+        return self.hypotheses[0].sketch_from_base
+
+    @property
+    def position_std(self) -> float:
+        """Spread of the first hypothesis [m]."""
+        return self.hypotheses[0].position_std
+
+    @property
+    def position_axis(self) -> tuple[float, float]:
+        """Axis of the largest spread of the first hypothesis [drawing units]."""
+        return self.hypotheses[0].position_axis
+
+    def moved(self, motion: Pose2, atlas: Atlas | None = None) -> "Estimate":
+        """Carry the estimate along by a motion in the robot's frame; an atlas names the cell there."""
+        hypotheses = tuple(one.moved(motion, atlas) for one in self.hypotheses)
+        pose = hypotheses[0].sketch_from_base.pose
+        place = self.place if atlas is None else atlas.place_name(hypotheses[0].cell_id)
+        return replace(
+            self,
+            hypotheses=hypotheses,
+            place=place,
+            x=pose.x,
+            y=-pose.y if self.y_down else pose.y,
+            heading=pose.theta,
+        )
 
 
-@dataclass(frozen=True, slots=True)
-class EstimateSettings:
-    """What counts as one place, and when the robot knows its own.
+def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: Atlas) -> Estimate:
+    """Cluster the particles into pose hypotheses, and say how probable the first one is.
 
-    How much way that takes is measured in diagonals of the drawing: the smaller a building is, the less of it
-    can be mistaken for the place.
+    After little `travel` [m] a robot that recognizes nothing is lost; later the drawing is to blame.
     """
+    particles, null = tracks.particles, math.exp(tracks.log_null)
+    hypotheses = calibrated(find_hypotheses(particles, atlas))
+    first = hypotheses[0]
+    pose = first.sketch_from_base.pose
+    inside = atlas.are_in((first.cell_id,), particles.states[:2].T) if first.cell_id else np.zeros(0, bool)
+    in_cell = math.exp(particles.log_mass) * float(particles.shares[inside].sum()) if inside.any() else 0.0
+    status = Status.LOCATED if first.probability >= MORE_PROBABLE_THAN_NOT else Status.LOST
+    if null > MORE_PROBABLE_THAN_NOT and travel >= MISMATCH_AFTER:
+        status = Status.MISMATCH
+    return Estimate(
+        stamp=stamp,
+        status=status,
+        hypotheses=hypotheses,
+        cell_probability=max(calibrate(in_cell), first.probability),
+        fit=fit,
+        place=atlas.place_name(first.cell_id),
+        x=pose.x,
+        y=-pose.y if atlas.sketch.y_down else pose.y,
+        heading=pose.theta,
+        scale=first.sketch_from_base.scale,
+        y_down=atlas.sketch.y_down,
+    )
 
-    block: float = 1.0  # [m] hypotheses are gathered over three by three blocks of this size
-    hypotheses: int = 5  # how many places are told, at most
-    least: float = 0.02  # probability of a place that is worth telling
-    confirmation: float = 0.065  # [diagonals] of way on which confidence makes up two thirds of what it lacks
-    fading: float = 0.6  # [diagonals] on which a defended place loses as much while belief is with another
-    jump: float = 2.0  # [m] beyond which it is another place that became the most probable
-    located: float = 0.5  # confidence from which on the robot claims to be located
 
-    def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
-        for name in ("block", "confirmation", "fading", "jump"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-        if not self.hypotheses >= 1:
-            raise ValueError(f"hypotheses must be >= 1, got {self.hypotheses}")
-        for name in ("least", "located"):
-            if not 0.0 <= getattr(self, name) <= 1.0:
-                raise ValueError(f"{name} must be in [0, 1], got {getattr(self, name)}")
-
-
-def find_places(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> tuple[Hypothesis, ...]:
-    """Gather hypotheses that stand close together into places, the most probable first; at least one."""
-    columns, rows = _blocks(belief, atlas, _block_of(belief, settings))
-    remaining = _masses(columns, rows, belief.weights)
-    found: list[Hypothesis] = []
-    while len(found) < settings.hypotheses:
-        summed = _around(remaining)
-        column, row = divmod(int(summed.argmax()), summed.shape[1])
-        if found and summed[column, row] < settings.least:
+def find_hypotheses(particles: Particles, atlas: Atlas) -> tuple[PoseHypothesis, ...]:
+    """Gather particles around the densest points, the most probable first; at least one."""
+    remaining = np.exp(particles.log_weights)
+    found: list[PoseHypothesis] = []
+    while len(found) < MAX_HYPOTHESES:
+        middle, scale = _densest(particles, remaining, atlas)
+        distance = np.hypot(particles.states[X] - middle[0], particles.states[Y] - middle[1]) / scale
+        members = (distance <= RADIUS) & (remaining > 0.0)
+        mass = float(remaining[members].sum())
+        if found and mass < MIN_PROBABILITY:
             break
-        members = (np.abs(columns - column) <= 1) & (np.abs(rows - row) <= 1)
-        members &= remaining[columns + 1, rows + 1] > 0.0
-        found.append(_place(belief.states[:, members], belief.weights[members], atlas))
-        remaining[column : column + 3, row : row + 3] = 0.0
-    return tuple(found)
+        found.append(_hypothesis(particles.states[:, members], remaining[members], atlas))
+        remaining = np.where(members, 0.0, remaining)
+        if not remaining.any():
+            break
+    return tuple(sorted(found, key=lambda one: -one.probability))
 
 
-def area_of(belief: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
-    """Measure how far belief is spread [m²]: evenly over as much, it would have the same entropy."""
-    masses = _masses(*_blocks(belief, atlas, _block_of(belief, settings)), belief.weights)
-    shares = masses[masses > 0.0]
-    return float(settings.block**2 * np.exp(-shares @ np.log(shares)))
+def calibrate(probability: float) -> float:
+    """Tell a probability of the filter as what it is worth.
+
+    >>> calibrate(0.0), round(calibrate(0.99), 2), calibrate(1.0) < 1.0
+    (0.0, 0.91, True)
+    """
+    if probability <= 0.0:
+        return 0.0
+    probability = min(probability, 1.0 - 1e-4)
+    a, b = CALIBRATION
+    return 1.0 / (1.0 + math.exp(-(a + b * math.log(probability / (1.0 - probability)))))
 
 
-def agreement(belief: Belief, other: Belief, atlas: Atlas, settings: EstimateSettings) -> float:
-    """Return the share of belief that stands where the other has at least a trace of its own."""
-    block = _block_of(other, settings)
-    held = _around(np.pad(_masses(*_blocks(other, atlas, block), other.weights), 1)) > TRACE
-    columns, rows = (blocks + 1 for blocks in _blocks(belief, atlas, block))
-    inside = (columns < held.shape[0]) & (rows < held.shape[1])
-    inside[inside] = held[columns[inside], rows[inside]]
-    return float(belief.weights[inside].sum())
+def calibrated(hypotheses: tuple[PoseHypothesis, ...]) -> tuple[PoseHypothesis, ...]:
+    """Calibrate the first probability; the others share what it leaves, as before."""
+    first, *others = hypotheses
+    probability = calibrate(first.probability)
+    left = (1.0 - probability) / max(1.0 - first.probability, 1e-9)
+    rest = (replace(one, probability=min(one.probability * left, probability)) for one in others)
+    return (replace(first, probability=probability), *rest)
 
 
-def _masses(columns: NDArray[np.int64], rows: NDArray[np.int64], weights: Array) -> Array:
-    """Sum weights block by block, with a margin of one block all around."""
-    shape = int(columns.max()) + 3, int(rows.max()) + 3
-    flat = (columns + 1) * shape[1] + rows + 1
-    return np.asarray(np.bincount(flat, weights, shape[0] * shape[1]), dtype=np.float64).reshape(shape)
-
-
-def _block_of(belief: Belief, settings: EstimateSettings) -> float:
-    """Return the size of a block [drawing units]."""
-    return settings.block * float(np.exp(belief.states[LOG_SCALE] @ belief.weights))
-
-
-def _blocks(belief: Belief, atlas: Atlas, block: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Tell which block each hypothesis stands in, (n,), (n,); far off the drawing is at its rim."""
+def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array, float]:
+    """Find the middle of the three by three blocks with the largest weight, and the scale there."""
+    scale = math.exp(float(particles.states[LOG_SCALE] @ weights) / float(weights.sum()))
     table = atlas.range_table
-    left, bottom = table.corner
-    extents = table.columns * table.cell_size, table.rows * table.cell_size
-    across, up = (
-        np.clip((belief.states[row] - start) / block, -1.0, extent / block + 1.0).astype(np.int64) + 1
-        for row, start, extent in zip((X, Y), (left, bottom), extents, strict=True)
-    )
-    return across, up
+    size = BLOCK * scale
+    low = np.array(table.corner) - size
+    high = np.array([table.columns, table.rows]) * table.cell_size + 2.0 * size
+    cells = np.floor(np.clip((particles.states[:2].T - low), 0.0, high) / size).astype(np.int64) + 1
+    shape = cells.max(axis=0) + 2
+    flat = cells[:, 0] * shape[1] + cells[:, 1]
+    masses = np.bincount(flat, weights, int(shape.prod())).reshape(shape)
+    summed = sum(masses[i : i + shape[0] - 2, j : j + shape[1] - 2] for i in range(3) for j in range(3))
+    best = np.array(np.unravel_index(int(np.argmax(summed)), (shape[0] - 2, shape[1] - 2))) + 1
+    inside = (np.abs(cells - best) <= 1).all(axis=1) & (weights > 0.0)
+    middle = mean_state(particles.states[:, inside], weights[inside])
+    return middle[:2], math.exp(float(middle[LOG_SCALE]))
 
 
-def _around(blocks: Array) -> Array:
-    """Sum each block with its eight neighbors, the margin left out."""
-    columns, rows = blocks.shape[0] - 2, blocks.shape[1] - 2
-    shifts = [(i, j) for i in range(3) for j in range(3)]
-    return np.asarray(sum(blocks[i : i + columns, j : j + rows] for i, j in shifts), dtype=np.float64)
-
-
-def _place(states: Array, weights: Array, atlas: Atlas) -> Hypothesis:
-    """Sum up hypotheses that stand close together."""
+def _hypothesis(states: Array, weights: Array, atlas: Atlas) -> PoseHypothesis:
+    """Sum up particles that stand close together."""
     mean = mean_state(states, weights)
-    return Hypothesis(
-        atlas.cell_at((float(mean[X]), float(mean[Y]))), similarity_of(mean), float(min(weights.sum(), 1.0))
+    offsets = states[[X, Y]] - mean[[X, Y], np.newaxis]
+    variances, axes = np.linalg.eigh(offsets * (weights / weights.sum()) @ offsets.T)
+    variances = np.maximum(variances, 0.0)
+    axis = math.sqrt(float(variances[-1])) * axes[:, -1]
+    return PoseHypothesis(
+        atlas.cell_at((float(mean[X]), float(mean[Y]))),
+        Affine2.from_state(*mean.tolist()),
+        float(min(weights.sum(), 1.0)),
+        math.sqrt(float(variances.sum())) / math.exp(float(mean[LOG_SCALE])),
+        (float(axis[0]), float(axis[1])),
     )
-
-
-def share_at(place: Hypothesis, belief: Belief, settings: EstimateSettings) -> float:
-    """Return the share of belief that stands at a place."""
-    at, scale = place.sketch_from_base.pose, place.sketch_from_base.scale
-    away = np.hypot(belief.states[X] - at.x, belief.states[Y] - at.y)
-    return float(belief.weights[away <= settings.jump * scale].sum())
-
-
-def defended(
-    own: Hypothesis,
-    probability: float,
-    share: float,
-    places: tuple[Hypothesis, ...],
-    settings: EstimateSettings,
-) -> tuple[Hypothesis, ...]:
-    """Put the incumbent's place first among the challenger's; where it has no share, these have the rest."""
-    probability = min(probability, 1.0)
-    others = [place for place in places if distance_between(own, place) > settings.jump]
-    held = sum(place.probability for place in others)
-    left = (1.0 - probability) / max(1.0 - share, held, 1e-9)
-    rest = (replace(place, probability=place.probability * left) for place in others)
-    return (replace(own, probability=probability), *rest)[: settings.hypotheses]
-
-
-def distance_between(first: Hypothesis, second: Hypothesis) -> float:
-    """Measure between two places [m], in the scale of the first."""
-    a, b = first.sketch_from_base.pose, second.sketch_from_base.pose
-    return math.hypot(a.x - b.x, a.y - b.y) / first.sketch_from_base.scale
-
-
-def steady_confidence(
-    confidence: float, share: float, jump: float, way: float, settings: EstimateSettings
-) -> float:
-    """Let confidence grow with the `way` [diagonals] on which the same place stays the most probable.
-
-    The `share` of the weights alone is badly overconfident: wrong places look certain for a few metres. A
-    `jump` [m] from the place that was carried along by the robot's motion begins anew.
-    """
-    kept = confidence if jump <= settings.jump else 0.0
-    return drawn_to(share, kept, way / settings.confirmation)
-
-
-def defended_confidence(
-    confidence: float, share: float, way: float, settings: EstimateSettings, *, is_led: bool
-) -> float:
-    """Let confidence in a defended place grow with the `way` [diagonals], and fade as another place leads.
-
-    Belief that goes elsewhere without explaining more tells nothing: a building may repeat itself.
-    """
-    if share > confidence:
-        return drawn_to(share, confidence, way / settings.confirmation)
-    return drawn_to(share, confidence, way / settings.fading) if is_led else confidence
-
-
-def drawn_to(target: float, value: float, time: float) -> float:
-    """Draw a value to a target; two thirds of the way in a unit of time."""
-    return value + (target - value) * -math.expm1(-time)
-
-
-def estimate_from(
-    places: tuple[Hypothesis, ...], confidence: float, stamp: float, settings: EstimateSettings
-) -> Estimate:
-    """Claim the most probable place."""
-    best = places[0]
-    confidence = min(confidence, best.probability)
-    status = Status.LOCATED if confidence >= settings.located else Status.LOST
-    return Estimate(stamp, status, best.cell_id, best.sketch_from_base, confidence, places)

@@ -1,84 +1,76 @@
-"""Scan in, estimate out: the whole of section 3 on one screen."""
+"""Scan in, estimate out: a clustered particle filter over the places of a drawing."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pilotage.geometry import Affine2, Array, Pose2
-from pilotage.localization.alignment import (
-    AlignmentSettings,
-    View,
-    align,
-    corners_in_base,
-    extend_views,
-    trust_in,
-)
-from pilotage.localization.belief import Belief
-from pilotage.localization.estimate import Estimate as RawEstimate
-from pilotage.localization.estimate import (
-    EstimateSettings,
-    Hypothesis,
-    agreement,
-    area_of,
-    defended,
-    defended_confidence,
-    distance_between,
-    estimate_from,
-    find_places,
-    share_at,
-    steady_confidence,
-)
-from pilotage.localization.incumbent import Incumbent, IncumbentSettings, gain_of, incumbent_at
-from pilotage.localization.placement import Placement, place_at
-from pilotage.localization.pose_hypothesis import Estimate, PoseHypothesis
-from pilotage.localization.proposals import propose_anywhere, propose_by_corners, propose_near
-from pilotage.localization.tracking import TrackingSettings, predict, thin, weigh
-from pilotage.localization.visibility import Look, VisibilityModel, VisibilitySettings, look
+from pilotage.geometry import Array, Pose2
+from pilotage.localization.estimate import Estimate, summarize
+from pilotage.localization.global_search import Keyframe, append_keyframe, global_search
+from pilotage.localization.motion_model import propagate
+from pilotage.localization.particles import Particles, join
+from pilotage.localization.prior import Prior, draw_anywhere, draw_near
+from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan, thin_scan
+from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
 from pilotage.shape import PartialShape, Simplification, simplify_all
-from pilotage.shape.corners import find_corners
+from pilotage.shape.corners import Corners, find_corners
+
+CORNERS = Simplification(min_relevance=0.08)
+"""[rad m] Simplification before corners are sought: a right angle between sides of 10 cm has 0.08."""
+NEW_TURN = math.radians(60.0)
+"""[rad] of a turn on the spot after which a scan counts in full: beams repeat what was seen before."""
+FIT_MEMORY = 10
+"""Number of keyframes over which the fit is averaged: 5 m."""
+BIRTH_COUNT = 2_000
+"""Particles that a search gives birth to."""
+SETTLED = 0.8
+"""Probability from which on a search of the whole drawing is rare."""
+SEARCH_EVERY = 2.0
+"""[m] between two searches then."""
 
 
 @dataclass(frozen=True, slots=True)
 class LocalizerSettings:
-    """The settings of all stages, and how often belief is weighed."""
+    """The settings of all stages, and when a scan becomes a keyframe."""
 
     atlas: AtlasSettings = field(default_factory=AtlasSettings)
     scan_matching: ScanMatchingSettings = field(default_factory=ScanMatchingSettings)
-    features: Simplification = field(default_factory=lambda: Simplification(min_relevance=0.08))  # [rad·m]
-    visibility: VisibilitySettings = field(default_factory=VisibilitySettings)
-    alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
-    tracking: TrackingSettings = field(default_factory=TrackingSettings)
-    incumbent: IncumbentSettings = field(default_factory=IncumbentSettings)
-    estimate: EstimateSettings = field(default_factory=EstimateSettings)
-    step: float = 0.5  # [m] belief is weighed anew once the robot has moved this far
-    turn: float = math.radians(20.0)  # [rad] or turned so much
-    new_turn: float = math.radians(60.0)  # [rad] of a turn on the spot after which a look counts in full
+    prior: Prior = field(default_factory=Prior)
+    sensor: SensorSettings = field(default_factory=SensorSettings)
+    tracks: TrackSettings = field(default_factory=TrackSettings)
+    proposals: int = 12_000  # places that a search of the whole drawing tries
+    step: float = 0.5  # [m] of motion after which a scan becomes a keyframe
+    turn: float = math.radians(20.0)  # [rad] of a turn after which a scan becomes a keyframe
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
-        for name in ("step", "turn", "new_turn"):
+        """Reject invalid settings."""
+        for name in ("step", "turn"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        if not self.proposals >= 100:
+            raise ValueError(f"proposals must be >= 100, got {self.proposals}")
 
-    def is_due(self, motion: Pose2) -> bool:
-        """Tell whether a robot that moved so since the last look sees anything new."""
+    def is_keyframe_due(self, motion: Pose2) -> bool:
+        """Tell whether the robot has moved far enough since the last keyframe."""
         return math.hypot(motion.x, motion.y) >= self.step or abs(motion.theta) >= self.turn
 
-    def news_in(self, motion: Pose2) -> float:
-        """Return the share of a look that is news after such a motion, [0..1]: half a step, half as much."""
-        return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / self.new_turn, 1.0)
+    def novelty(self, motion: Pose2) -> float:
+        """Return the weight of a keyframe after such a motion, [0..1]: after half a step it is half."""
+        return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / NEW_TURN, 1.0)
 
 
 class Localizer:
     """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
 
-    Give it a drawing, or an atlas that was built of one before. `start` is a pose in the sketch (y up),
-    `scale` drawing units per metre; without them the robot may be anywhere, at any heading, and the drawing
-    of any scale. Raises ValueError if these cannot be meant.
+    Takes a drawing, or an atlas that was built of one before. `start`, if it is known, is x, y and, if that
+    is known too, the heading [rad], in the drawing's own units and axes; `scale` is in drawing units per
+    metre. Without them the robot may be anywhere, at any heading, and the drawing of any scale. Raises
+    ValueError if an argument is invalid.
     """
 
     def __init__(
@@ -87,196 +79,131 @@ class Localizer:
         settings: LocalizerSettings | None = None,
         *,
         seed: int = 0,
-        start: Pose2 | tuple[float, ...] | None = None,
+        start: tuple[float, float] | tuple[float, float, float] | None = None,
         scale: float | None = None,
     ) -> None:
         self.settings = settings if settings is not None else LocalizerSettings()
         if scale is not None and not (scale > 0.0 and math.isfinite(scale)):
             raise ValueError(f"scale must be positive and finite, got {scale}")
-        self._rng = np.random.default_rng(seed)
+        if start is not None and not (len(start) in {2, 3} and all(map(math.isfinite, start))):
+            raise ValueError(f"start must be x, y and a heading, all finite, got {start}")
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
-        tracking = self.settings.tracking
-        if isinstance(start, tuple):
-            x, y = self.atlas.sketch.sketch_from_file(np.array([start[:2]], dtype=np.float64))[0].tolist()
-            if len(start) == 2:
-                tracking = replace(tracking, prior=replace(tracking.prior, known_heading=math.pi))
-            start = Pose2(x, y, start[2] if len(start) > 2 else 0.0)
+        self._prior = self.settings.prior
         if scale is not None:
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
-            tracking = replace(
-                tracking, prior=replace(tracking.prior, log_scale=tracking.prior.known_log_scale)
-            )
-        self._tracking = tracking
-        self._model = VisibilityModel(self.atlas, self.settings.visibility)
+            self._prior = replace(self._prior, log_scale=self._prior.given_log_scale)
+        self._rng = np.random.default_rng(seed)
+        self._model = SensorModel(self.atlas, self.settings.sensor)
         self.scan_matcher = ScanMatcher(self.settings.scan_matching)
-        states = self._first_states(start)
-        self.belief = Belief(states, np.zeros(states.shape[1]))
-        self._motion: Pose2 | None = None  # since belief was last weighed; None before the first scan
-        self._views: tuple[View, ...] = ()
-        self._places: tuple[Hypothesis, ...] = ()
-        self._placement: Placement | None = None
-        self._search_due = False
-        self._incumbent: Incumbent | None = None  # whose belief is believed, if not this one
-        if start is not None:
-            worth = self.settings.incumbent.told
-            own = self.belief.resampled(self.settings.incumbent.count, self._rng)
-            self._incumbent = Incumbent(own, 1.0, odds=worth, stake=worth)
-        self._confidence = 0.0 if start is None else 1.0
+        self._log_told = 0.0 if start is None else -self.settings.tracks.told_log_odds
+        self.tracks = self._first_tracks(start)
+        self._motion: Pose2 | None = None  # since the last keyframe; None before the first scan
+        self._window: tuple[Keyframe, ...] = ()
+        self._log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of each keyframe
+        self._fits: tuple[float, ...] = ()
+        self._searched = 0.0  # [m] of travel at the last search
+        self._keyframe_estimate: Estimate | None = None
+        self._estimate: Estimate | None = None
+
+    @property
+    def estimate(self) -> Estimate:
+        """The last estimate; ValueError before the first update."""
+        if self._estimate is None:
+            raise ValueError("an estimate needs at least one scan, got none")
+        return self._estimate
+
+    def sample(self, count: int) -> Array:
+        """Pick states of equally probable particles, for planning over all tracks, (6, count)."""
+        return self.tracks.particles.picked(count)
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Take one scan in, give one estimate out."""
-        settings = self.settings
-        seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3
-        motion = self._motion @ seen.last_from_base if self._motion else Pose2.identity()
-        if self._motion is None or settings.is_due(motion):
-            if self._search_due:
-                self._search()
-            self._weigh(scan, seen.shapes, motion)
-            self._search_due = self._motion is not None and not settings.is_due(seen.last_from_base)
-            if not self._search_due:
-                self._search()
-            self._settle(motion)
+        seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3: the robot's side, knows no drawing
+        first = self._motion is None
+        motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
+        if first or self.settings.is_keyframe_due(motion):
+            self._add_keyframe(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
             motion = Pose2.identity()
-        elif self._search_due:  # where scans come close together, the next one has time for it
-            self._search()
-            self._search_due = False
         self._motion = motion
-        raw = estimate_from(self._moved_places(motion), self._confidence, scan.stamp, settings.estimate)
-        self.estimate = self._offered(raw)
-        return self.estimate
+        assert self._keyframe_estimate is not None
+        self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
+        return self._estimate
 
-    def _offered(self, raw: RawEstimate) -> Estimate:
-        """Offer an estimate."""
-        placement = self.placement
-        affine = Affine2.from_state(*placement.state.tolist())
-        a, b = placement.axis.tolist()
-        leading = PoseHypothesis(raw.cell_id, affine, raw.hypotheses[0].probability, placement.spread, (a, b))
-        others = tuple(
-            PoseHypothesis(
-                one.cell_id,
-                Affine2(
-                    one.sketch_from_base.scale * one.sketch_from_base.pose.rotation,
-                    one.sketch_from_base.pose.position,
-                ),
-                one.probability,
+    def _add_keyframe(self, scan: SparseScan, corners: Corners, motion: Pose2, stamp: float) -> None:
+        """Propagate and reweight all tracks, let new ones be born, and sum up."""
+        settings, is_first = self.settings, not self._window
+        self._window = append_keyframe(self._window, motion, scan, corners)
+        particles, log_null = self.tracks.particles, self.tracks.log_null
+        if not is_first:
+            particles = propagate(particles, motion, self.atlas, self._prior, self._rng)
+            distance = math.hypot(motion.x, motion.y)
+            particles, log_null = leave(
+                particles, log_null, settings.tracks.leaving * distance * math.exp(self._log_told)
             )
-            for one in raw.hypotheses[1:]
+        novelty = 1.0 if is_first else settings.novelty(motion)
+        log_ratio = novelty * self._model.log_ratio(particles.states, scan)
+        particles = Particles(particles.states, particles.log_weights + log_ratio)
+        particles, log_null, log_total = normalized(particles, log_null)
+        self._log_totals = self._within_window((*self._log_totals, (self._window[-1].travel, log_total)))
+        if not is_first and self._is_search_due():
+            particles = join([particles, self._births()])
+            particles, log_null, _ = normalized(particles, log_null)
+        self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
+        self._keyframe_estimate = summarize(
+            self.tracks, self._fit(scan), stamp, self._window[-1].travel, self.atlas
         )
-        graph, pose, y_down = self.atlas.cell_graph, affine.pose, self.atlas.sketch.y_down
-        label = graph.cell(raw.cell_id).label if graph is not None and raw.cell_id else ""
-        return Estimate(
-            raw.stamp, raw.status, (leading, *others), self.belief_in(raw.cell_id), 1.0, label or raw.cell_id,
-            pose.x, -pose.y if y_down else pose.y, pose.theta, affine.scale, y_down, raw.confidence,
-        )  # fmt: skip
 
-    def sample(self, count: int) -> Array:
-        """Pick equally probable particles, (6, count)."""
-        return self.believed.picked(count)
+    def _within_window(self, totals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+        """Keep what belongs to the keyframes of the window."""
+        return tuple(one for one in totals if one[0] >= self._window[0].travel)
 
-    @property
-    def scan_matcher(self) -> PerceptionMap:
-        """The state of scan matching."""
-        return self.perception_map
+    def _is_search_due(self) -> bool:
+        """Search at every keyframe while the place is not settled, and rarely once it is."""
+        assert self._keyframe_estimate is not None
+        is_settled = self._keyframe_estimate.probability >= SETTLED
+        return not is_settled or self._window[-1].travel - self._searched >= SEARCH_EVERY
 
-    @property
-    def placement(self) -> Placement:
-        """Where in its surroundings the robot stands at the most probable place; after the first update."""
-        if self._placement is None or self._motion is None:
-            raise ValueError("a placement needs at least one scan, got none")
-        return self._placement.moved(self._motion)
+    def _births(self) -> Particles:
+        """Let tracks be born where a search of the whole drawing explains the last metres (3.4).
 
-    @property
-    def believed(self) -> Belief:
-        """The belief that is believed: the incumbent's, if there is one."""
-        return self.belief if self._incumbent is None else self._incumbent.belief
+        A birth says that the robot was carried there, or was on no drawn place, when the window began. Its
+        mass is the evidence of the window there, over the evidence that all tracks together had since.
+        """
+        settings, travel = self.settings, self._window[-1].travel
+        distance = max(travel - self._searched, 0.05)
+        self._searched = travel
+        found = global_search(self._window, self._model, self._prior, settings.proposals, self._rng)
+        since = sum(log_total for _, log_total in self._log_totals[1:])
+        log_prior = math.log(min(settings.tracks.moving * distance, 0.5)) + self._log_told
+        return found.resampled(BIRTH_COUNT, self._rng).plus(log_prior - since)
 
-    def belief_in(self, cell_id: str) -> float:
-        """Return the probability that the robot was in this cell at the last look, wherever in it."""
-        inside = self.atlas.are_in((cell_id,), self.believed.states[:2].T)
-        return float(self.believed.weights[inside].sum())
+    def _fit(self, scan: SparseScan) -> float:
+        """Average the fit at the leading track over the last keyframes."""
+        if not self.tracks.tracks:
+            return 0.0
+        leading = self.tracks.tracks[0].particles
+        state = leading.states[:, int(leading.log_weights.argmax())]
+        self._fits = (*self._fits, self._model.fit(state, scan))[-FIT_MEMORY:]
+        return sum(self._fits) / len(self._fits)
 
-    def _weigh(self, scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> None:
-        """Carry belief along, and weigh it by what is seen now."""
-        settings = self.settings
-        seen = look(scan, settings.visibility)
-        features = simplify_all([shape.polyline for shape in shapes], settings.features)
-        corners = find_corners(features)
-        self._views = extend_views(self._views, motion, seen, corners, settings.alignment.window)
-        news = settings.news_in(motion) if self._places else 1.0
-        weighed = self._weighed(self.belief, motion, seen, news)
-        incumbent = self._incumbent
-        if incumbent is not None:
-            own = self._weighed(incumbent.belief, motion, seen, news)
-            gain = gain_of((self.belief, weighed), (incumbent.belief, own))
-            own = thin(own, self._tracking, self._rng)
-            self._incumbent = incumbent.contested(own, gain, settings.incumbent)
-        self.belief = thin(weighed, self._tracking, self._rng)
-
-    def _weighed(self, belief: Belief, motion: Pose2, seen: Look, news: float) -> Belief:
-        """Move belief and weigh it by a look."""
-        moved = predict(belief, motion, self.atlas, self._tracking, self._rng)
-        return weigh(moved, seen, self._model, news=news)
-
-    def _settle(self, motion: Pose2) -> None:
-        """Gather belief into places, and see where in its surroundings the robot stands at the first."""
-        settings, carried = self.settings.estimate, self._moved_places(motion)
-        incumbent = self._incumbent
-        if incumbent is not None and incumbent.is_beaten:
-            incumbent = None
-        places = find_places(self.belief, self.atlas, settings)
-        diagonal = self.atlas.sketch.diagonal / places[0].sketch_from_base.scale  # [m]
-        way = math.hypot(motion.x, motion.y) / diagonal
-        if incumbent is not None:
-            agreed = agreement(self.belief, incumbent.belief, self.atlas, settings)
-            is_led = incumbent.lead > 0.0
-            worth = defended_confidence(incumbent.confidence, agreed, way, settings, is_led=is_led)
-            incumbent = replace(incumbent, confidence=worth)
-            own = find_places(incumbent.belief, self.atlas, replace(settings, hypotheses=1))[0]
-            share = share_at(own, self.belief, settings)
-            self._confidence = defended_confidence(self._confidence, share, way, settings, is_led=is_led)
-            probability = max(share, self._confidence * incumbent.credit)
-            places = defended(own, probability, share, places, settings)
-        elif carried:
-            jump = distance_between(places[0], carried[0])
-            share = places[0].probability
-            self._confidence = steady_confidence(self._confidence, share, jump, way, settings)
-        self._places = places
-        self._incumbent = incumbent or incumbent_at(
-            places[0], self.belief, self._confidence, self.settings.incumbent, self._rng
-        )
-        at = places[0].sketch_from_base.pose
-        self._placement = place_at(self.believed, (at.x, at.y), settings.jump)
-
-    def _search(self) -> None:
-        """Hold belief against a search of the drawing, and let it have a share where it explains as much."""
-        settings, rng = self.settings, self._rng
-        fresh = align(self._views, self._proposals(), self._model, settings.alignment, rng)
-        sample = self.belief.resampled(len(fresh), rng).states
-        share = trust_in(fresh, sample, self._views, self._model, settings.alignment)
-        area = area_of(self.belief, self.atlas, settings.estimate)
-        count = self._tracking.count_for(area, len(self.belief))
-        self.belief = self.belief.mixed(fresh, share, count, rng)
-
-    def _first_states(self, start: Pose2 | None) -> Array:
-        """Draw hypotheses before the first scan."""
-        tracking = self._tracking
+    def _first_tracks(self, start: Sequence[float] | None) -> Tracks:
+        """Draw particles before the first scan."""
+        settings = self.settings.tracks
+        log_null = math.log(settings.first_null) + self._log_told
         if start is None:
-            return propose_anywhere(self.atlas, tracking.prior, tracking.first_count, self._rng)
-        count = max(tracking.count, self.settings.incumbent.count)  # which are drawn from these
-        return propose_near(start, self.atlas, tracking.prior, count, self._rng)
+            states = draw_anywhere(self.atlas, self._prior, settings.first_count, self._rng)
+        else:
+            x, y = self.atlas.sketch.sketch_from_file(np.array([start[:2]], dtype=np.float64))[0].tolist()
+            pose = Pose2(x, y, start[2] if len(start) > 2 else 0.0)
+            heading_std = self._prior.given_heading if len(start) > 2 else math.pi
+            states = draw_near(
+                pose, self.atlas, self._prior, settings.max_count, self._rng, heading_std=heading_std
+            )
+        particles = Particles(states, np.full(states.shape[1], -math.log(states.shape[1])))
+        particles, log_null, _ = normalized(particles.plus(math.log1p(-math.exp(log_null))), log_null)
+        return Tracks((Track(particles),), log_null)
 
-    def _proposals(self) -> Array:
-        """Propose places for an alignment: half where corners agree, half anywhere."""
-        count, prior = self.settings.alignment.proposals // 2, self._tracking.prior
-        seen = corners_in_base(self._views)
-        by_corners = propose_by_corners(seen, self.atlas, prior, count, self._rng)
-        return np.hstack([by_corners, propose_anywhere(self.atlas, prior, count, self._rng)])
 
-    def _moved_places(self, motion: Pose2) -> tuple[Hypothesis, ...]:
-        """Carry the places on since they were found."""
-        moved = []
-        for place in self._places:
-            sketch_from_base = place.sketch_from_base @ motion
-            cell_id = self.atlas.cell_at((sketch_from_base.pose.x, sketch_from_base.pose.y))
-            moved.append(Hypothesis(cell_id, sketch_from_base, place.probability))
-        return tuple(moved)
+def find_seen_corners(shapes: tuple[PartialShape, ...]) -> Corners:
+    """Find the corners of perceived shapes, in the robot's frame [m]."""
+    return find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))

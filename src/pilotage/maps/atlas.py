@@ -58,6 +58,12 @@ class Atlas:
         """Name the cell that a point lies in, else the nearest; empty if the drawing has none."""
         return self.cell_graph.cell_at(point) if self.cell_graph else ""
 
+    def place_name(self, cell_id: str) -> str:
+        """Return the label of a cell if it has one, else its id."""
+        if self.cell_graph is None or not cell_id:
+            return cell_id
+        return self.cell_graph.cell(cell_id).label or cell_id
+
     def are_in(self, cell_ids: Collection[str], points: Array) -> NDArray[np.bool_]:
         """Tell which points (n, 2) lie in one of these cells, or nearest to one, as the grid tells, (n,)."""
         if self.cell_graph is None:

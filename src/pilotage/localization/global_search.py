@@ -1,0 +1,124 @@
+"""Search the drawing for places that explain the last metres, whatever its scale (Wolter 2001, section 3.4).
+
+Proposals from all over the drawing are weighed by the sensor model over a window of keyframes: cheap tests on
+many first, dear tests on few last. Those that remain are refined where they stand.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array, Pose2
+from pilotage.localization.motion_model import WALL_PENALTY, find_blocked
+from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
+from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
+from pilotage.localization.sensor_model import SensorModel, SparseScan
+from pilotage.shape.corners import Corners
+
+WINDOW = 10.0
+"""[m] of travel that is searched for as one: over more, the proportions of a drawing change."""
+SCANS = 8
+"""Scans of the window that are compared, evenly spaced."""
+KEPT = (6, 30)
+"""One in so many proposals is kept after the newest scan, and after half of the scans."""
+ROUNDS = 4
+"""Rounds of refinement."""
+MOVES = np.array([0.3, 0.3, math.radians(4.0), 0.08, 0.08, 0.08])
+"""Standard deviations of a refining move: x, y [m], heading [rad], log scale, p, q."""
+
+
+@dataclass(frozen=True, slots=True)
+class Keyframe:
+    """A scan, where it was taken, and after how much travel."""
+
+    scan: SparseScan
+    corners: Corners  # in the frame of the robot [m]
+    odom_from_base: Pose2
+    travel: float  # [m]
+
+
+def append_keyframe(
+    window: tuple[Keyframe, ...], motion: Pose2, scan: SparseScan, corners: Corners
+) -> tuple[Keyframe, ...]:
+    """Add a keyframe after a motion, and drop those before the window."""
+    if not window:
+        return (Keyframe(scan, corners, Pose2.identity(), 0.0),)
+    last = window[-1]
+    travel = last.travel + math.hypot(motion.x, motion.y)
+    kept = tuple(one for one in window if travel - one.travel <= WINDOW)
+    return (*kept, Keyframe(scan, corners, last.odom_from_base @ motion, travel))
+
+
+def global_search(
+    window: tuple[Keyframe, ...], model: SensorModel, prior: Prior, count: int, rng: np.random.Generator
+) -> Particles:
+    """Find where on the drawing the newest keyframe may stand; the mass is the evidence of the window.
+
+    `count` proposals are drawn from the prior, half of them where corners agree. The evidence is the mean
+    likelihood ratio over the prior, so it includes the price of having tried many places.
+    """
+    ours = _corners_in_base(window)
+    states = np.hstack(
+        [
+            draw_at_corners(ours, model.atlas, prior, count // 2, rng),
+            draw_anywhere(model.atlas, prior, count // 2, rng),
+        ]
+    )
+    log_prior = -math.log(states.shape[1])
+    chosen = choose_keyframes(window, SCANS)
+    for share, some in zip(KEPT, (chosen[:1], chosen[::2]), strict=True):
+        scores = log_evidence(states, some, model)
+        states = states[:, _best(scores, max(1, count // share))]
+    scores = log_evidence(states, chosen, model)
+    log_mass = Particles(states, scores + log_prior).log_mass
+    for _ in range(ROUNDS):  # Metropolis: each state wanders to where it explains the window better
+        moves = rng.standard_normal(states.shape) * MOVES[:, np.newaxis]
+        moves[[X, Y]] *= np.exp(states[LOG_SCALE])
+        tried = states + moves
+        tried_scores = log_evidence(tried, chosen, model)
+        taken = np.log(rng.random(len(scores))) < tried_scores - scores
+        states = np.where(taken, tried, states)
+        scores = np.where(taken, tried_scores, scores)
+    found = Particles(states, scores)
+    return found.plus(log_mass - found.log_mass)
+
+
+def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel) -> Array:
+    """Sum the log-likelihood ratios of keyframes, the newest first, for states (6, n) of the newest, (n,)."""
+    base_from_odom = keyframes[0].odom_from_base.inverse()
+    scores = np.zeros(states.shape[1])
+    later = states[:2]
+    for keyframe in keyframes:
+        base_from_then = base_from_odom @ keyframe.odom_from_base
+        then = states.copy()
+        then[:2] += displacements(states, base_from_then.x, base_from_then.y)
+        then[HEADING] += base_from_then.theta
+        scores += model.log_ratio(then, keyframe.scan)
+        if keyframe is not keyframes[0]:
+            scores -= WALL_PENALTY * find_blocked(then, later - then[:2], model.atlas)
+        later = then[:2]
+    return scores
+
+
+def choose_keyframes(window: tuple[Keyframe, ...], count: int) -> tuple[Keyframe, ...]:
+    """Take keyframes evenly spaced in order, the newest first."""
+    picked = np.unique(np.linspace(0, len(window) - 1, min(count, len(window))).round().astype(np.intp))
+    return tuple(window[index] for index in picked[::-1])
+
+
+def _corners_in_base(window: tuple[Keyframe, ...]) -> Corners:
+    """Gather the corners of all keyframes in the frame of the newest."""
+    base_from_odom = window[-1].odom_from_base.inverse()
+    gathered = window[-1].corners
+    for keyframe in window[:-1]:
+        gathered = gathered.joined(keyframe.corners.moved(base_from_odom @ keyframe.odom_from_base))
+    return gathered
+
+
+def _best(scores: Array, count: int) -> NDArray[np.intp]:
+    """Find the best scores, in order of their index."""
+    if count >= len(scores):
+        return np.arange(len(scores))
+    return np.sort(np.argpartition(-scores, count)[:count])
