@@ -1,7 +1,7 @@
 """The closed loop of navigator and simulator, and its record: one value for journal, score and picture."""
 
 from pilotage.drives.loop import Instant, Pilot, drive, set_out
-from pilotage.drives.navigate import navigate
 from pilotage.drives.record import Drive
+from pilotage.drives.run import navigate
 
 __all__ = ["Drive", "Instant", "Pilot", "drive", "navigate", "set_out"]
