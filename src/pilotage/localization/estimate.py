@@ -7,7 +7,7 @@ from enum import Enum
 import numpy as np
 
 from pilotage.geometry import Affine2, Array, Pose2
-from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state
+from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state, weighted_sum
 from pilotage.localization.tracks import Tracks
 from pilotage.maps import Atlas
 
@@ -188,7 +188,7 @@ def calibrated(hypotheses: tuple[PoseHypothesis, ...]) -> tuple[PoseHypothesis, 
 
 def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array, float]:
     """Find the middle of the three by three blocks with the largest weight, and the scale there."""
-    scale = math.exp(float(particles.states[LOG_SCALE] @ weights) / float(weights.sum()))
+    scale = math.exp(float(weighted_sum(particles.states[LOG_SCALE], weights)) / float(weights.sum()))
     table = atlas.range_table
     size = BLOCK * scale
     low = np.array(table.corner) - size
@@ -208,7 +208,8 @@ def _hypothesis(states: Array, weights: Array, atlas: Atlas) -> PoseHypothesis:
     """Sum up particles that stand close together."""
     mean = mean_state(states, weights)
     offsets = states[[X, Y]] - mean[[X, Y], np.newaxis]
-    variances, axes = np.linalg.eigh(offsets * (weights / weights.sum()) @ offsets.T)
+    covariance = np.einsum("in,jn,n->ij", offsets, offsets, weights / weights.sum())
+    variances, axes = np.linalg.eigh(covariance)
     variances = np.maximum(variances, 0.0)
     axis = math.sqrt(float(variances[-1])) * axes[:, -1]
     return PoseHypothesis(

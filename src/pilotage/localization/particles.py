@@ -84,10 +84,14 @@ def displacements(states: Array, x: Array | float, y: Array | float) -> Array:
     return carried
 
 
+def weighted_sum(values: Array, weights: Array) -> Array:
+    """Sum values (..., n) by weights (n,); without BLAS, whose threads get in the way of other processes."""
+    return np.asarray(np.einsum("...n,n->...", values, weights))
+
+
 def mean_state(states: Array, weights: Array) -> Array:
     """Average particles that stand close together, headings on the circle, (6,)."""
-    mean = states @ weights / weights.sum()
-    mean[HEADING] = math.atan2(
-        float(np.sin(states[HEADING]) @ weights), float(np.cos(states[HEADING]) @ weights)
-    )
+    mean = weighted_sum(states, weights) / weights.sum()
+    sine, cosine = weighted_sum(np.stack([np.sin(states[HEADING]), np.cos(states[HEADING])]), weights)
+    mean[HEADING] = math.atan2(float(sine), float(cosine))
     return np.asarray(mean)

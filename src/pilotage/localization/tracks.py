@@ -16,7 +16,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from pilotage.geometry import Array
-from pilotage.localization.particles import HEADING, Particles, X, Y, join
+from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, join, weighted_sum
 from pilotage.maps import Atlas
 
 BLOCK = 1.0
@@ -138,7 +138,7 @@ def _block_keys(particles: Particles, atlas: Atlas) -> NDArray[np.int64]:
 
 def _mean_log_scale(particles: Particles) -> float:
     """Average the log scale of particles."""
-    return float(particles.states[3] @ particles.shares)
+    return float(weighted_sum(particles.states[LOG_SCALE], particles.shares))
 
 
 def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, NDArray[np.intp]]:
