@@ -29,9 +29,11 @@ FIT_MEMORY = 10
 BIRTH_COUNT = 2_000
 """Particles that a search gives birth to."""
 SETTLED = 0.8
-"""Probability from which on a search of the whole drawing is rare."""
+"""Probability from which on a search of the whole drawing is rare and small."""
 SEARCH_EVERY = 2.0
 """[m] between two searches then."""
+SETTLED_PROPOSALS = 0.25
+"""Share of the proposals that such a search tries."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,8 +147,9 @@ class Localizer:
         particles = Particles(particles.states, particles.log_weights + log_ratio)
         particles, log_null, log_total = normalized(particles, log_null)
         self._log_totals = self._within_window((*self._log_totals, (self._window[-1].travel, log_total)))
-        if not is_first and self._is_search_due():
-            particles = join([particles, self._births()])
+        share = 0.0 if is_first else self._search_effort()
+        if share > 0.0:
+            particles = join([particles, self._births(share)])
             particles, log_null, _ = normalized(particles, log_null)
         self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
         self._keyframe_estimate = summarize(
@@ -157,13 +160,18 @@ class Localizer:
         """Keep what belongs to the keyframes of the window."""
         return tuple(one for one in totals if one[0] >= self._window[0].travel)
 
-    def _is_search_due(self) -> bool:
-        """Search at every keyframe while the place is not settled, and rarely once it is."""
-        assert self._keyframe_estimate is not None
-        is_settled = self._keyframe_estimate.probability >= SETTLED
-        return not is_settled or self._window[-1].travel - self._searched >= SEARCH_EVERY
+    def _search_effort(self) -> float:
+        """Search at every keyframe while the place is not settled, and rarely once it is; return the share.
 
-    def _births(self) -> Particles:
+        It is the share of the proposals that are tried.
+        """
+        assert self._keyframe_estimate is not None
+        if self._keyframe_estimate.probability < SETTLED:
+            return 1.0
+        is_due = self._window[-1].travel - self._searched >= SEARCH_EVERY
+        return SETTLED_PROPOSALS if is_due else 0.0
+
+    def _births(self, share: float) -> Particles:
         """Let tracks be born where a search of the whole drawing explains the last metres (3.4).
 
         A birth says that the robot was carried there, or was on no drawn place, when the window began. Its
@@ -172,7 +180,8 @@ class Localizer:
         settings, travel = self.settings, self._window[-1].travel
         distance = max(travel - self._searched, 0.05)
         self._searched = travel
-        found = global_search(self._window, self._model, self._prior, settings.proposals, self._rng)
+        count = round(share * settings.proposals)
+        found = global_search(self._window, self._model, self._prior, count, self._rng)
         since = sum(log_total for _, log_total in self._log_totals[1:])
         log_prior = math.log(min(settings.tracks.moving * distance, 0.5)) + self._log_told
         return found.resampled(BIRTH_COUNT, self._rng).plus(log_prior - since)
