@@ -11,7 +11,7 @@ import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
-from pilotage.io.logs import read_bytes
+from pilotage.io.files import read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.roles import Role, Thing
 from pilotage.io.svg.style import leading_number, local_name
