@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.places import find_place
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 
 if TYPE_CHECKING:
     from pilotage.maps import CellGraph, Route, SchematicMap
@@ -65,7 +65,7 @@ def cells(
     - `pilotage cells office.svg --start 120,80 --goal kitchen --figure route.png -o cells.geojson`
     - `pilotage cells scan.png --shading light-is-free`
     """
-    refuse_existing([output, figure], force=force)
+    check_outputs([output, figure], force=force)
     from pilotage.errors import FileError
     from pilotage.maps import DecompositionSettings, NotEnclosedError, decompose
 

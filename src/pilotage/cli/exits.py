@@ -14,7 +14,7 @@ from pilotage.cli.terminal import say
 from pilotage.errors import PilotageError
 
 FAILURE, BUG = 1, 70
-"""Exit codes: of an input or output that will not do, and of a mistake of ours (EX_SOFTWARE in sysexits.h)."""
+"""Exit codes: of an unusable input or output, and of a mistake of ours (EX_SOFTWARE in sysexits.h)."""
 SIGNALLED = 128
 """Added to the number of a signal, it is the exit code of a run that the signal ended."""
 SHOW_TRACEBACK = "PILOTAGE_TRACEBACK"
@@ -67,7 +67,7 @@ def report(error: BaseException) -> int:
     if os.environ.get(SHOW_TRACEBACK):
         say("".join(traceback.format_exception(error)).rstrip())
     say(f"pilotage: error: {' '.join(describe(error).split())}")
-    return FAILURE if isinstance(error, PilotageError | OSError | MemoryError) else BUG
+    return FAILURE if isinstance(error, PilotageError | OSError) else BUG
 
 
 def describe(error: BaseException) -> str:
@@ -75,13 +75,14 @@ def describe(error: BaseException) -> str:
     if isinstance(error, PilotageError):
         return str(error)
     if isinstance(error, MemoryError):
-        return "there is not enough memory for this input"
+        return f"there is not enough memory for this input, {SHOW_TRACEBACK}=1 prints the traceback"
     if isinstance(error, OSError):
         what = error.strerror or str(error)
-        return f"output cannot be written ({what})" if error.filename is None else f"{what}: {error.filename}"
+        where = error.filename
+        return f"output cannot be written ({what})" if where is None else f"{what}: {where}"
     return (
-        f"this is a mistake in pilotage ({type(error).__name__}: {error}), please report it with the traceback"
-        f" that {SHOW_TRACEBACK}=1 prints"
+        f"this is a mistake in pilotage ({type(error).__name__}: {error}), please report it with the"
+        f" traceback that {SHOW_TRACEBACK}=1 prints"
     )
 
 

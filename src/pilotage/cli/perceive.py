@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 from pilotage.errors import FileError
 
 
@@ -26,7 +26,7 @@ def perceive(
 
     **Example:** `pilotage perceive run.log.gz --scan 120 --figure scan.png`
     """
-    refuse_existing([figure], force=force)
+    check_outputs([figure], force=force)
     from pilotage.io import open_log
     from pilotage.perception import PerceptionSettings
     from pilotage.perception import perceive as see

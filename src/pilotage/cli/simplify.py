@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 
 SHARE = 0.0025
 """Relevance below which a vertex goes, as a share of the drawing's diagonal."""
@@ -29,7 +29,7 @@ def simplify(
 
     **Example:** `pilotage simplify office.svg --figure evolution.png`
     """
-    refuse_existing([figure], force=force)
+    check_outputs([figure], force=force)
     from pilotage.io import open_map
     from pilotage.shape import Simplification, simplify_all
 
