@@ -66,10 +66,10 @@ def reading(path: Path | str) -> Iterator[None]:
 
 
 def check_regular(path: Path) -> None:
-    """Reject what is no regular file: a pipe would block, a device may never end."""
+    """Reject a pipe, which would block, and a device, which may never end."""
     with reading(path):
-        if path.exists() and not path.is_file():
-            raise FileError("a regular file is expected, found a folder, a pipe or a device", path)
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise FileError("a regular file is expected, found a pipe or a device", path)
 
 
 @contextmanager
