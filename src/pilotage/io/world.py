@@ -93,13 +93,14 @@ def origin(entries: dict[str, str], path: Path) -> Pose2:
     """Read the pose of the lower left corner of a map."""
     try:
         x, y, yaw = (float(value) for value in re.split(r"[\s,]+", entries.get("origin", "").strip("[] \t")))
-        if max(abs(x), abs(y)) > FARTHEST:
-            raise ValueError("too far away")
-        return Pose2(x, y, yaw)
+        pose = Pose2(x, y, yaw)
     except ValueError as error:
         raise FileError(
             f"a map_server file must give origin as [x, y, yaw], got {entries.get('origin')!r}", path
         ) from error
+    if max(abs(x), abs(y)) > FARTHEST:
+        raise FileError(f"a map_server file must give origin as [x, y, yaw] within {FARTHEST:g} m", path)
+    return pose
 
 
 def borders(free: Mask) -> Array:
