@@ -413,3 +413,12 @@ def test_a_pipe_is_refused_and_not_waited_for(tmp_path, name):
 
     with pytest.raises(FileError, match="a regular file is expected"):
         open_map(tmp_path / name)
+
+
+def test_a_few_elements_that_repeat_each_other_without_end_are_refused(tmp_path):
+    layers = "".join(f'<g id="g{k}">' + f'<use href="#g{k - 1}"/>' * 10 + "</g>" for k in range(1, 8))
+    path = tmp_path / "bomb.svg"
+    path.write_text(f'<svg><defs><g id="g0"/>{layers}</defs><use href="#g7"/></svg>')
+
+    with pytest.raises(FileError, match="more than 100000 elements"):
+        open_map(path)
