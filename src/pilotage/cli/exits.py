@@ -17,6 +17,8 @@ FAILURE, BUG = 1, 70
 """Exit codes: of an unusable input or output, and of a mistake of ours (EX_SOFTWARE in sysexits.h)."""
 SIGNALLED = 128
 """Added to the number of a signal, it is the exit code of a run that the signal ended."""
+LONGEST = 200
+"""Letters of the message of an unexpected error that are shown."""
 SHOW_TRACEBACK = "PILOTAGE_TRACEBACK"
 """An environment variable: if it is set, the traceback of an error is printed before its line."""
 
@@ -81,8 +83,8 @@ def describe(error: BaseException) -> str:
         where = error.filename
         return f"output cannot be written ({what})" if where is None else f"{what}: {where}"
     return (
-        f"this is a mistake in pilotage ({type(error).__name__}: {error}), please report it with the"
-        f" traceback that {SHOW_TRACEBACK}=1 prints"
+        f"this is a mistake in pilotage ({type(error).__name__}: {str(error)[:LONGEST]}),"
+        f" please report it with the traceback that {SHOW_TRACEBACK}=1 prints"
     )
 
 
