@@ -5,10 +5,11 @@ import math
 import tomllib
 from dataclasses import dataclass, field
 from enum import Enum
+from pathlib import Path
 
 import pytest
 
-from pilotage.config import Settings, build, read_settings, settings_from, settings_text
+from pilotage.config import Settings, build, meanings, read_settings, settings_from, settings_text
 from pilotage.errors import FileError, SettingsError
 from pilotage.geometry import Pose2
 
@@ -76,7 +77,11 @@ def test_every_kind_of_value_is_read():
         ({"inner": {"count": 1.5}}, "setting inner.count must be a whole number, got 1.5"),
         ({"inner": {"count": True}}, "setting inner.count must be a whole number, got True"),
         ({"inner": {"width": -1}}, "setting inner: width must be > 0, got -1.0"),
-        ({"inner": {"width": math.nan}}, "setting inner: width must be > 0, got nan"),
+        ({"inner": {"width": math.nan}}, "setting inner.width must be finite, got nan"),
+        ({"limit": math.inf}, "setting limit must be finite, got inf"),
+        ({"steps": [1.0, math.nan]}, r"setting steps\[1\] must be finite, got nan"),
+        ({"inner": {"width": 10**400}}, "setting inner.width must be a number of at most 15 digits, got 10"),
+        ({"inner": {"count": 16**5000}}, "at most 15 digits, got a number of thousands of digits"),
         ({"loud": 1}, "setting loud must be true or false, got 1"),
         ({"name": 1}, "setting name must be a text, got 1"),
         ({"manner": "slow"}, "setting manner must be one of quick, exact, got 'slow'"),
@@ -105,6 +110,10 @@ def test_settings_of_a_stage_are_changed_and_no_others():
     ("content", "error", "message"),
     [
         ("a = [", FileError, "must be TOML"),
+        ("a = " + "9" * 5000, SettingsError, "holds a value that cannot be read"),
+        ("[localizer]\nstep = 1" + "0" * 400, SettingsError, "setting localizer.step must be a number of at"),
+        ("a = " + "[" * 5000, SettingsError, "must not be nested so deeply"),
+        ("[localizer.sensor]\nsigma_hit = nan", SettingsError, "localizer.sensor.sigma_hit must be finite"),
         ("nonsense = 1", SettingsError, "unknown setting nonsense"),
         (
             "[simulator.laser]\nbeams = 1",
@@ -155,7 +164,7 @@ def test_settings_that_are_written_out_are_read_back(tmp_path, settings):
 
 
 def test_every_kind_of_value_is_written():
-    inner = Outer(Inner(2.0, 5), True, 'a "b"', Manner.EXACT, (1.0, math.inf), (4, 5), 0.5)
+    inner = Outer(Inner(2.0, 5), True, 'a "b"', Manner.EXACT, (1.0, 2.5), (4, 5), 0.5)
     written = tomllib.loads(settings_text(inner, "outer"))["outer"]
 
     assert inner == build(Outer, written, "")
@@ -163,3 +172,41 @@ def test_every_kind_of_value_is_written():
 
 def test_all_settings_are_frozen():
     assert all(kind.__dataclass_params__.frozen for kind in all_settings(Settings))
+
+
+def test_each_setting_is_printed_with_its_comment():
+    lines = settings_text(Settings()).splitlines()
+
+    assert "time_limit = 900.0  # [s] after which the robot gives up" in lines
+    assert all("noqa" not in line for line in lines)
+
+
+@dataclass(frozen=True, slots=True)
+class Commented:
+    """Not a comment: x."""
+
+    plain: float = 1.0
+    # about nothing
+    short: float = 2.0  # [m] short
+    long: tuple[float, float] = (  # [s] first,
+        1.0,  # then second
+        2.0,
+    )
+    silenced: int = 3  # count  # fmt: skip
+
+    def method(self):
+        return self.short  # no setting
+
+
+def test_meanings_are_the_comments_behind_fields():
+    assert meanings(Commented) == {
+        "short": "[m] short",
+        "long": "[s] first, then second",
+        "silenced": "count",
+    }
+
+
+def test_the_reference_of_settings_is_up_to_date():
+    page = (Path(__file__).parents[1] / "docs" / "reference" / "settings.md").read_text(encoding="utf-8")
+
+    assert settings_text(Settings()) == page.split("```toml\n")[1].split("```")[0], "run `make reference`"

@@ -1,7 +1,11 @@
-"""Settings of all stages in one nested value, read from TOML; unknown names are refused."""
+"""Settings of all stages in one nested value, read from TOML; unknown names are rejected."""
 
 import difflib
+import inspect
+import io
 import json
+import math
+import tokenize
 import tomllib
 import types
 from collections.abc import Mapping
@@ -11,6 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from pilotage.errors import FileError, SettingsError
+from pilotage.io.files import check_regular, read_bytes
 from pilotage.localization import LocalizerSettings
 from pilotage.navigation import NavigatorSettings
 from pilotage.simulation import SimulatorSettings
@@ -19,10 +24,16 @@ Kind = TypeVar("Kind")
 
 PLAIN = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
 
+LARGEST = 2**53
+"""Larger whole numbers are not exact as floating point numbers."""
+
+LONGEST = 60
+"""Letters of a wrong value that a message repeats."""
+
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Every default is sane: a file needs to name only what it changes."""
+    """The settings of all stages; a file names only those that it changes."""
 
     localizer: LocalizerSettings = field(default_factory=LocalizerSettings)
     navigator: NavigatorSettings = field(default_factory=NavigatorSettings)
@@ -32,14 +43,11 @@ class Settings:
 def read_settings(path: Path | str) -> Settings:
     """Read settings from a TOML file.
 
-    Raises FileError if it cannot be read, SettingsError if it holds an unknown name or an impossible value.
+    Raises FileError if it cannot be read, SettingsError if it holds an unknown name or an invalid value.
     """
+    check_regular(Path(path))
     try:
-        content = Path(path).read_bytes().decode()
-    except FileNotFoundError as error:
-        raise FileError("there is no such file", path) from error
-    except OSError as error:
-        raise FileError(f"the file cannot be opened ({error.strerror})", path) from error
+        content = read_bytes(path).decode()
     except UnicodeDecodeError as error:
         raise FileError("a settings file must be UTF-8 text", path) from error
     try:
@@ -48,13 +56,24 @@ def read_settings(path: Path | str) -> Settings:
         raise FileError(f"a settings file must be TOML ({error})", path) from error
     except SettingsError as error:
         raise SettingsError(f"{error}: {path}") from error
+    except RecursionError as error:
+        raise SettingsError(f"a settings file must not be nested so deeply: {path}") from error
+    except ValueError as error:  # a number of thousands of digits
+        raise SettingsError(f"a settings file holds a value that cannot be read ({error}): {path}") from error
 
 
 def settings_text(settings: object, name: str = "") -> str:
-    """Write settings as TOML, a table a stage; what has no value is left out."""
+    """Write settings as TOML, a table for each stage; settings without a value are left out.
+
+    The unit and the meaning of each setting follow it as a comment.
+    """
     values = {one.name: getattr(settings, one.name) for one in fields(settings)}  # type: ignore[arg-type]
     plain = {key: value for key, value in values.items() if value is not None and not is_dataclass(value)}
-    lines = [f"{key} = {toml_value(value)}" for key, value in plain.items()]
+    meaning = meanings(type(settings))
+    lines = [
+        f"{key} = {toml_value(value)}" + (f"  # {meaning[key]}" if key in meaning else "")
+        for key, value in plain.items()
+    ]
     own = "\n".join([f"[{name}]", *lines, ""]) if name and lines else ""
     nested = [
         settings_text(value, f"{name}.{key}".lstrip("."))
@@ -62,6 +81,43 @@ def settings_text(settings: object, name: str = "") -> str:
         if is_dataclass(value)
     ]
     return "\n".join(part for part in (own, *nested) if part)
+
+
+def meanings(kind: type) -> dict[str, str]:
+    """Return what the comments behind the fields of a dataclass say, by field.
+
+    >>> meanings(Settings)
+    {}
+    """
+    names = {one.name for one in fields(kind)}
+    found: dict[str, str] = {}
+    name = ""
+    try:
+        source = inspect.cleandoc(inspect.getsource(kind))
+    except (OSError, TypeError):  # installed without its source
+        return found
+    depth = 0
+    is_code = False
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        depth += (token.type == tokenize.INDENT) - (token.type == tokenize.DEDENT)
+        if token.type == tokenize.NAME and not is_code and depth == 1:
+            name = token.string if token.string in names else ""
+        if token.type == tokenize.COMMENT and is_code and name:
+            found[name] = f"{found.get(name, '')} {without_directives(token.string)}".strip()
+        is_code = token.type not in (tokenize.NEWLINE, tokenize.NL, tokenize.INDENT, tokenize.DEDENT) and (
+            is_code or token.type != tokenize.COMMENT
+        )
+    return {key: text for key, text in found.items() if text}
+
+
+def without_directives(comment: str) -> str:
+    """Return the text of a comment, without what it says to tools.
+
+    >>> without_directives("# [m] from wall to wall  # noqa: E501")
+    '[m] from wall to wall'
+    """
+    parts = (part.strip() for part in comment.split("#"))
+    return " ".join(part for part in parts if part and not part.startswith(("noqa", "type:", "fmt:")))
 
 
 def toml_value(value: object) -> str:
@@ -111,21 +167,34 @@ def converted(hint: Any, value: object, name: str) -> object:  # noqa: ANN401  #
         return converted_list(get_args(hint), value, name)
     if is_dataclass(hint):
         if not isinstance(value, Mapping):
-            raise SettingsError(f"setting {name} must be a table, got {value!r}")
+            raise SettingsError(f"setting {name} must be a table, got {shown(value)}")
         return build(hint, value, f"{name}.")  # type: ignore[arg-type]
     if isinstance(hint, type) and issubclass(hint, Enum):
         return chosen(hint, value, name)
-    if hint is float and isinstance(value, int) and not isinstance(value, bool):
+    if hint in (int, float) and type(value) is int and abs(value) > LARGEST:
+        raise SettingsError(f"setting {name} must be a number of at most 15 digits, got {shown(value)}")
+    if hint is float and type(value) is int:
         return float(value)
     if hint not in PLAIN or type(value) is not hint:
-        raise SettingsError(f"setting {name} must be {PLAIN.get(hint, hint)}, got {value!r}")
+        raise SettingsError(f"setting {name} must be {PLAIN.get(hint, hint)}, got {shown(value)}")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise SettingsError(f"setting {name} must be finite, got {value}")
     return value
+
+
+def shown(value: object) -> str:
+    """Write a wrong value for a message, shortened if it is long."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no more than some thousand digits
+        return "a number of thousands of digits"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def converted_list(kinds: tuple[Any, ...], value: object, name: str) -> tuple[object, ...]:
     """Check an array against `tuple[kind, ...]` or `tuple[first, second]`."""
     if not isinstance(value, list):
-        raise SettingsError(f"setting {name} must be an array, got {value!r}")
+        raise SettingsError(f"setting {name} must be an array, got {shown(value)}")
     if len(kinds) == 2 and kinds[1] is Ellipsis:
         kinds = (kinds[0],) * len(value)
     if len(kinds) != len(value):
@@ -141,5 +210,5 @@ def chosen(hint: type[Enum], value: object, name: str) -> Enum:
         if member.value == value:
             return member
     raise SettingsError(
-        f"setting {name} must be one of {', '.join(str(m.value) for m in hint)}, got {value!r}"
+        f"setting {name} must be one of {', '.join(str(m.value) for m in hint)}, got {shown(value)}"
     )

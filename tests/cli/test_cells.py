@@ -6,6 +6,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from pilotage import worlds
 from pilotage.cli.cells import cells
 from pilotage.errors import PilotageError
 
@@ -112,3 +113,11 @@ def test_the_command_starts_without_the_compiler(drawing):
 
     assert b"" == outcome.stderr
     assert 0 == outcome.returncode
+
+
+def test_a_point_beyond_all_drawings_is_refused_in_one_line(pilotage):
+    outcome = pilotage("cells", worlds.OFFICE.quick, "--start", "1e308,0", "--goal", "5,5")
+
+    assert 1 == outcome.code
+    assert 1 == outcome.err.count("\n")
+    assert "1e308,0" in outcome.err

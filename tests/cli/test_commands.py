@@ -188,3 +188,40 @@ def test_a_setting_that_is_not_known_is_refused_by_name(pilotage, tmp_path):
 
     assert 1 == outcome.code
     assert "localizer.scan_matching.perception.min_relevence, the nearest known one is" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("words", "content"),
+    [
+        (
+            ("perceive", worlds.LOG, "--scan", "110"),
+            "[localizer.scan_matching.perception]\nmin_relevance = 5.0",
+        ),
+        (("simplify", worlds.OFFICE.quick), "[localizer.atlas]\ndetail = 0.2"),
+        (("cells", worlds.OFFICE.quick), "[localizer.atlas.decomposition]\nmin_cell_area = 0.2"),
+        (
+            ("cells", worlds.OFFICE.quick, "--start", "kitchen", "--goal", "office"),
+            "[navigator.route]\ngateway = 0.5",
+        ),
+    ],
+)
+def test_settings_change_what_a_command_does(pilotage, tmp_path, words, content):
+    (tmp_path / "mine.toml").write_text(content)
+    (tmp_path / "same.toml").write_text("")
+    plain, same, changed = (
+        pilotage(*words, *options)
+        for options in (
+            (),
+            ("--settings", tmp_path / "same.toml"),
+            ("--settings", tmp_path / "mine.toml"),
+        )
+    )
+
+    assert plain == same
+    assert 0 == changed.code
+    assert changed.out != plain.out
+
+
+@pytest.mark.parametrize("command", ["cells", "demo", "localize", "navigate", "perceive", "simplify"])
+def test_commands_that_have_settings_read_them_from_a_file(pilotage, command):
+    assert "--settings" in pilotage(command, "--help").out

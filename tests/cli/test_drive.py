@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from made_up_drive import GRAPH, through_the_door
-from pilotage.cli.drive import EVERY, follow, story
+from pilotage.cli.drive import EVERY, draw, follow, story
+from pilotage.cli.exits import Stopped
 from pilotage.drives import Instant
 from pilotage.navigation import Outcome
 
@@ -75,3 +76,23 @@ def test_a_drive_that_is_interrupted_ends_where_it_is():
 def test_a_drive_that_is_interrupted_before_it_began_is_none():
     with pytest.raises(KeyboardInterrupt):
         follow(interrupted(0), GRAPH, lambda _step, _scene: None)
+
+
+def test_a_drive_that_is_stopped_by_a_signal_is_over_at_once():
+    def stopped():
+        yield from INSTANTS[:3]
+        raise Stopped(15)
+
+    with pytest.raises(Stopped):
+        follow(stopped(), GRAPH, lambda _step, _scene: None)
+
+
+def test_a_drawing_that_is_interrupted_says_that_the_journal_is_kept(tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("pilotage.figures.drive.drive_figure", interrupt)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        draw(DRIVE, tmp_path, "", moving=False)
+
+    assert [f"{tmp_path / 'journal.jsonl'} is complete and kept"] == caught.value.__notes__

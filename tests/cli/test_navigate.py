@@ -156,6 +156,15 @@ def test_a_folder_with_other_things_in_it_is_left_alone(call, site):
     assert "precious" == (folder / JOURNAL).read_text()
 
 
+def test_a_folder_with_nothing_but_what_a_killed_run_left_is_used(call, site):
+    folder = site[2]
+    folder.mkdir()
+    (folder / f".{JOURNAL}.abcd1234.unfinished").write_text("{}")
+    outcome = call("--goal", "kitchen", "--no-animation", "--time-limit", "0.1")
+
+    assert 0 == outcome.code
+
+
 def test_force_replaces_the_files_of_a_drive_and_no_other(call, site):
     folder = site[2]
     folder.mkdir()

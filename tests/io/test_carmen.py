@@ -152,3 +152,20 @@ def test_equal_stamps_stay_in_order():
     log = read_carmen([flaser([1.0, 1.0], robot=f"{k} 0 0") for k in range(3)])
 
     assert [0.0, 1.0, 2.0] == [reading.odometry.odom_from_base.x for reading in log.readings]
+
+
+def robotlaser(angle_min="-1.57", increment="1.57"):
+    return (
+        f"ROBOTLASER1 0 {angle_min} 3.14 {increment} 80 0.01 0 3 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1.0 host 1.0"
+    )
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [robotlaser("inf"), robotlaser("nan"), robotlaser(increment="inf"), flaser([1.0], robot="1e300 0 0")],
+)
+def test_a_line_of_endless_angles_or_places_is_passed_over(broken):
+    log = read_carmen([broken, robotlaser()])
+
+    assert 1 == len(log.readings)
+    assert [1] == [line.number for line in log.broken_lines]

@@ -182,3 +182,32 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
 )
 def test_real_pictures_are_recognized(name, kind):
     assert kind is recognize(read_picture(SHARED / name))
+
+
+def test_a_file_that_is_not_a_picture_is_never_handed_to_another_program(tmp_path, monkeypatch):
+    def run(*_words, **_options):
+        raise AssertionError("a program was started")
+
+    monkeypatch.setattr("subprocess.Popen", run)
+    path = tmp_path / "page.png"
+    path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n%%EOF\n")
+
+    with pytest.raises(FileError, match="a picture cannot be read"):
+        open_map(path)
+
+
+def test_a_broken_chunk_of_a_png_is_refused(tmp_path):
+    path = saved(tmp_path / "broken.png", np.zeros((40, 40)))
+    content = path.read_bytes()
+    at = content.index(b"IDAT")
+    path.write_bytes(content[:at] + b"\0\0\0\0" + content[at + 4 :])
+
+    with pytest.raises(FileError, match="a picture cannot be read"):
+        open_map(path)
+
+
+def test_a_picture_of_too_many_pixels_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("pilotage.io.raster.MAX_PIXELS", 1000)
+
+    with pytest.raises(FileError, match="pixels, got 40 x 40"):
+        open_map(saved(tmp_path / "large.png", np.zeros((40, 40))))

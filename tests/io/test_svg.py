@@ -2,6 +2,7 @@
 
 import gzip
 import math
+import os
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import strategies as st
 from svgelements import Matrix
 
 from pilotage.errors import FileError
-from pilotage.io import open_map
+from pilotage.io import open_map, open_world
 from pilotage.maps import Label, SchematicMap
 
 
@@ -376,3 +377,48 @@ def test_a_rotated_label_keeps_to_its_line(tmp_path):
 
     assert math.isclose(4.0, label.position[0])
     assert math.isclose(-9.0, label.position[1])
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<path d="M0 0 h" stroke="red"/>',
+        '<path d="M0 0 C 1 1" stroke="red"/>',
+        '<path d="M0 0 A 1e308 1 0 0 1 5 5" stroke="red"/>',
+        '<path d="M0 0 Q 1e308 1e308 1 1" stroke="red"/>',
+        '<rect x="-1e308" width="1e308" height="1e308"/><rect width="9" height="9"/>',
+        '<line x2="1e308" y2="5" stroke="red"/>',
+        '<rect width="9" height="9" stroke="red"/><text x="1e308" y="0">far</text>',
+        '<circle class="goal" r="1" transform="scale(1e99)"/><path d="M0 0h9v9" stroke="red"/>',
+    ],
+)
+@pytest.mark.parametrize("read", [open_map, open_world])
+def test_values_that_are_cut_short_or_too_large_are_refused_with_the_path(tmp_path, read, body):
+    path = tmp_path / "drawing.svg"
+    path.write_text(f"<svg>{body}</svg>")
+    if read is open_world and ("text" in body or "goal" in body):
+        pytest.skip("worlds have no labels and no goals")
+
+    with pytest.raises(FileError, match="holds a value that cannot be read") as caught:
+        read(path)
+
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["pipe.svg", "pipe.png", "pipe.yaml", "map.yaml"])
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path, name):
+    os.mkfifo(tmp_path / name.replace("map.yaml", "pipe.png"))
+    if name == "map.yaml":
+        (tmp_path / name).write_text("image: pipe.png\nresolution: 0.1\norigin: [0, 0, 0]\n")
+
+    with pytest.raises(FileError, match="a regular file is expected"):
+        open_map(tmp_path / name)
+
+
+def test_a_few_elements_that_repeat_each_other_without_end_are_refused(tmp_path):
+    layers = "".join(f'<g id="g{k}">' + f'<use href="#g{k - 1}"/>' * 10 + "</g>" for k in range(1, 8))
+    path = tmp_path / "bomb.svg"
+    path.write_text(f'<svg><defs><g id="g0"/>{layers}</defs><use href="#g7"/></svg>')
+
+    with pytest.raises(FileError, match="more than 100000 elements"):
+        open_map(path)

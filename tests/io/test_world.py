@@ -49,6 +49,8 @@ def test_a_map_is_as_large_as_it_says_and_lies_where_it_says(tmp_path):
         ({"image": "nowhere.png"}, "there is no such file"),
         ({"resolution": None}, "resolution as a number"),
         ({"resolution": 0}, "resolution > 0"),
+        ({"resolution": 1e308}, "at most 100 m, got 1e\\+308"),
+        ({"origin": "[1e308, 0, 0]"}, "origin as"),
         ({"resolution": "fine"}, "resolution as a number"),
         ({"origin": "[0, 0]"}, "origin as"),
         ({"origin": "[0, 0, nan]"}, "origin as"),

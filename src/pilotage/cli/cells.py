@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.places import find_place
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 
 if TYPE_CHECKING:
-    from pilotage.maps import CellGraph, Route, SchematicMap
+    from pilotage.maps import CellGraph, Route, RouteSettings, SchematicMap
 
 
 class Shading(Enum):
@@ -47,6 +47,7 @@ def cells(
         Shading,
         typer.Option(help="Of a picture: whether light or dark is free space, or it shows lines of a pen."),
     ] = Shading.RECOGNIZED,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """Divide a drawing into rooms, halls and corridors, and find a route through them.
@@ -65,16 +66,22 @@ def cells(
     - `pilotage cells office.svg --start 120,80 --goal kitchen --figure route.png -o cells.geojson`
     - `pilotage cells scan.png --shading light-is-free`
     """
-    refuse_existing([output, figure], force=force)
+    check_outputs([output, figure], force=force)
     from pilotage.errors import FileError
-    from pilotage.maps import DecompositionSettings, NotEnclosedError, decompose
+    from pilotage.maps import DecompositionSettings, NotEnclosedError, RouteSettings, decompose
 
+    division, routing = DecompositionSettings(), RouteSettings()
+    if settings is not None:
+        from pilotage.config import read_settings
+
+        chosen = read_settings(settings)
+        division, routing = chosen.localizer.atlas.decomposition, chosen.navigator.route
     sketch = read_drawing(drawing, shading)
     try:
-        graph = decompose(sketch, DecompositionSettings())
+        graph = decompose(sketch, division)
     except NotEnclosedError as error:
         raise FileError(str(error), drawing) from error
-    route = plan(sketch, graph, start, goal)
+    route = plan(sketch, graph, start, goal, routing)
     typer.echo(describe(graph) if route is None else describe_route(graph, route))
     if output is not None:
         from pilotage.io.geojson import write_cells
@@ -102,11 +109,13 @@ def read_drawing(drawing: Path, shading: Shading) -> "SchematicMap":
     return read_raster(drawing, PictureKind[shading.name])
 
 
-def plan(sketch: "SchematicMap", graph: "CellGraph", start: str | None, goal: str | None) -> "Route | None":
+def plan(
+    sketch: "SchematicMap", graph: "CellGraph", start: str | None, goal: str | None, settings: "RouteSettings"
+) -> "Route | None":
     """Find the route that was asked for, if any was; what is not named is taken from the drawing."""
     if start is None and goal is None:
         return None
-    from pilotage.maps import RouteSettings, check_place, find_route
+    from pilotage.maps import check_place, find_route
 
     ends = []
     for what, words, marked in (("start", start, sketch.start), ("goal", goal, sketch.goal)):
@@ -118,7 +127,7 @@ def plan(sketch: "SchematicMap", graph: "CellGraph", start: str | None, goal: st
         assert point is not None
         check_place(graph, point, what)
         ends.append(point)
-    return find_route(graph, ends[0], ends[1], RouteSettings())
+    return find_route(graph, ends[0], ends[1], settings)
 
 
 def describe(graph: "CellGraph") -> str:

@@ -26,6 +26,7 @@ def demo(
     *,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the results.")] = Path("demo"),
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that the demo did not make.")] = False,
 ) -> None:
     """Drive a simulated robot through an office to a room that is named on a quick drawing.
@@ -38,6 +39,11 @@ def demo(
 
     **Example:** `pilotage demo -o demo`
     """
+    chosen = None
+    if settings is not None:
+        from pilotage.config import read_settings
+
+        chosen = read_settings(settings)
     claim(output, [output / name for name in (JOURNAL, FIGURE, ANIMATION)], force=force)
     from pilotage.drives import set_out
     from pilotage.io import open_map, open_world
@@ -45,7 +51,7 @@ def demo(
 
     sketch, building = open_map(OFFICE.quick), open_world(OFFICE.world)
     with busy("Reading the drawing"):
-        navigator, simulator = set_out(sketch, building, GOAL, seed=seed)
+        navigator, simulator = set_out(sketch, building, GOAL, seed=seed, settings=chosen)
     driven = drive_and_record(building, navigator, simulator, output)
     recorded = replace(driven, true_goal=find_true_goal(driven, OFFICE))
     typer.echo(f"{story(recorded)} {truth(recorded, OFFICE)}")

@@ -9,7 +9,8 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-from pilotage.cli.terminal import busy, say
+from pilotage.cli.exits import Stopped
+from pilotage.cli.terminal import busy, keeping, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
@@ -47,8 +48,8 @@ def follow(
                 gathered.append(instant)
                 write(instant.step, instant.scene)
                 show(instant.step)
-        except KeyboardInterrupt:
-            if not gathered:
+        except KeyboardInterrupt as interrupt:
+            if not gathered or isinstance(interrupt, Stopped):
                 raise
     return gathered
 
@@ -87,9 +88,14 @@ def journal_in(folder: Path | None, sketch: "SchematicMap") -> "Iterator[Callabl
 
 
 def make_folder(folder: Path, *, force: bool) -> None:
-    """Make a folder for a drive; one with other things in it must not be used unasked."""
+    """Make a folder for a drive; one with other things in it must not be used unasked.
+
+    Temporary files that a killed run left in it do not count.
+    """
+    from pilotage.io.files import is_temporary
+
     try:
-        if folder.is_dir() and any(folder.iterdir()) and not force:
+        if folder.is_dir() and not all(map(is_temporary, folder.iterdir())) and not force:
             raise FileError("the folder holds something already, --force writes into it", folder)
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -101,7 +107,7 @@ def draw(recorded: "Drive", folder: Path, title: str, *, moving: bool) -> None:
     from pilotage.figures.drive import drive_figure
     from pilotage.figures.style import save
 
-    with busy("Drawing"):
+    with keeping(folder / JOURNAL), busy("Drawing"):
         save(drive_figure(recorded, title), folder / FIGURE)
         if moving:
             from pilotage.figures.animation import animate

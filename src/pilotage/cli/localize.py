@@ -8,7 +8,7 @@ import typer
 
 from pilotage.cli.places import parse_pose
 from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, keeping, say
 
 
 def localize(
@@ -53,7 +53,7 @@ def localize(
     - `pilotage localize office.svg run.log.gz -o out.jsonl --figure where.png`
     - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
     """
-    refuse_existing([output, figure], force=force)
+    check_outputs([output, figure], force=force)
     if scale is not None and not (math.isfinite(scale) and scale > 0.0):
         raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
     from pilotage.io import open_map
@@ -65,5 +65,6 @@ def localize(
     with estimates_sink(output, sketch) as write:
         estimates = run(localizer, readings, write)
     if figure is not None:
-        draw(sketch, localizer, estimates, figure, title=f"{log.name} in {drawing.name}")
+        with keeping(output):
+            draw(sketch, localizer, estimates, figure, title=f"{log.name} in {drawing.name}")
     say(summary(estimates))

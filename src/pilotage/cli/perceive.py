@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 from pilotage.errors import FileError
 
 
@@ -16,6 +16,7 @@ def perceive(
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw the scan and its shapes (.png, .svg, .pdf).")
     ] = None,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """See one scan as partial shapes (Wolter 2001, sections 2.1 and 2.2; figure 2).
@@ -26,21 +27,26 @@ def perceive(
 
     **Example:** `pilotage perceive run.log.gz --scan 120 --figure scan.png`
     """
-    refuse_existing([figure], force=force)
+    check_outputs([figure], force=force)
     from pilotage.io import open_log
     from pilotage.perception import PerceptionSettings
     from pilotage.perception import perceive as see
 
+    chosen = PerceptionSettings()
+    if settings is not None:
+        from pilotage.config import read_settings
+
+        chosen = read_settings(settings).localizer.scan_matching.perception
     readings = open_log(log)
     if readings.complaint:
         say(readings.complaint)
     if scan >= len(readings):
         raise FileError(f"the log holds scans 0 to {len(readings) - 1}, asked was for scan {scan}", log)
-    chosen = readings.readings[scan].scan
-    shapes = see(chosen, PerceptionSettings())
+    sweep = readings.readings[scan].scan
+    shapes = see(sweep, chosen)
     typer.echo(
-        f"scan {scan} of {len(readings)} at {chosen.stamp:.3f} s: "
-        f"{int(chosen.returned.sum())} returns of {len(chosen)} beams, {len(shapes)} shapes"
+        f"scan {scan} of {len(readings)} at {sweep.stamp:.3f} s: "
+        f"{int(sweep.returned.sum())} returns of {len(sweep)} beams, {len(shapes)} shapes"
     )
     for k, shape in enumerate(shapes):
         line = shape.polyline
@@ -52,5 +58,5 @@ def perceive(
         from pilotage.figures.scan import scan_figure
         from pilotage.figures.style import save
 
-        save(scan_figure(chosen, shapes), figure)
+        save(scan_figure(sweep, shapes), figure)
         say(f"drawn in {figure}")

@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from pilotage.maps.routing.roadmap import Point
 
 
+FARTHEST = 1e9
+"""Largest number that is accepted: no drawing is larger."""
+
+
 def find_place(words: str, sketch: "SchematicMap", graph: "CellGraph") -> "Point":
     """Read `X,Y` in the axes of the drawing's file, or find the cell that bears a label."""
     from pilotage.maps import find_labeled
@@ -53,7 +57,7 @@ def parse_pose(words: str, option: str) -> tuple[float, float, float]:
 
 
 def finite_numbers(words: str) -> list[float]:
-    """Read numbers between commas; none if one of them is no number, or endless.
+    """Read numbers between commas; none if one of them is not a number, or beyond `FARTHEST`.
 
     >>> finite_numbers("1,-2.5"), finite_numbers("nan,1"), finite_numbers("kitchen")
     ([1.0, -2.5], [], [])
@@ -62,4 +66,4 @@ def finite_numbers(words: str) -> list[float]:
         numbers = [float(word) for word in words.split(",")]
     except ValueError:
         return []
-    return numbers if all(map(math.isfinite, numbers)) else []
+    return numbers if all(abs(number) <= FARTHEST for number in numbers) else []

@@ -1,4 +1,4 @@
-"""`pilotage settings`: all that can be set, and what it is set to."""
+"""`pilotage settings`: all settings, their values and what they mean."""
 
 from pathlib import Path
 from typing import Annotated
@@ -7,11 +7,13 @@ import typer
 
 
 def settings(
-    file: Annotated[Path | None, typer.Argument(help="Settings to lay over the defaults (TOML).")] = None,
+    file: Annotated[
+        Path | None, typer.Argument(help="A file that changes some of the defaults (TOML).")
+    ] = None,
 ) -> None:
-    """Print all settings as TOML: the defaults, or what a file makes of them.
+    """Print all settings as TOML, each with its unit and meaning: the defaults, or as a file changes them.
 
-    A file needs to name only what it changes. Names that are not known are refused.
+    A file names only the settings that it changes. Unknown names are errors.
 
     **Example:** `pilotage settings > mine.toml`, then `pilotage localize ... --settings mine.toml`
     """

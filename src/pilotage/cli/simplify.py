@@ -1,11 +1,12 @@
 """`pilotage simplify`: what is left of a drawing once its noise is gone."""
 
+import math
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from pilotage.cli.terminal import refuse_existing, say
+from pilotage.cli.terminal import check_outputs, say
 
 SHARE = 0.0025
 """Relevance below which a vertex goes, as a share of the drawing's diagonal."""
@@ -15,12 +16,17 @@ def simplify(
     drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
     *,
     share: Annotated[
-        float,
-        typer.Option(min=0.0, help="Vertices less relevant than this share of the drawing's diagonal go."),
-    ] = SHARE,
+        float | None,
+        typer.Option(
+            min=0.0,
+            help="Vertices less relevant than this share of the drawing's diagonal go.",
+            show_default=f"{SHARE}, or localizer.atlas.detail of the settings",
+        ),
+    ] = None,
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw it before and after (.png, .svg, .pdf).")
     ] = None,
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """Simplify a drawing by discrete curve evolution (Wolter 2001, section 2.2; figure 1).
@@ -29,10 +35,17 @@ def simplify(
 
     **Example:** `pilotage simplify office.svg --figure evolution.png`
     """
-    refuse_existing([figure], force=force)
+    check_outputs([figure], force=force)
     from pilotage.io import open_map
     from pilotage.shape import Simplification, simplify_all
 
+    if share is None and settings is not None:
+        from pilotage.config import read_settings
+
+        share = read_settings(settings).localizer.atlas.detail
+    share = SHARE if share is None else share
+    if not math.isfinite(share):
+        raise typer.BadParameter(f"a share must be finite, got {share}", param_hint="--share")
     sketch = open_map(drawing)
     evolved = simplify_all(sketch.strokes, Simplification(share * sketch.diagonal))
     before, after = (sum(len(stroke) for stroke in strokes) for strokes in (sketch.strokes, evolved))

@@ -1,5 +1,8 @@
-"""Talk to whoever called: progress and remarks on stderr, results on stdout."""
+"""Talk to the user: results on standard output, progress and remarks on standard error."""
 
+import contextlib
+import io
+import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -14,13 +17,25 @@ from pilotage.errors import FileError
 Item = TypeVar("Item")
 
 
+def secure_streams() -> None:
+    """Let nothing that is said fail: no letter that the terminal cannot show, no stream that is closed."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the caller
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115
+        elif isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
 def say(text: str) -> None:
-    """Write a remark for a person."""
-    sys.stderr.write(text + "\n")
+    """Write a remark to standard error; it is lost if that cannot be written to."""
+    with contextlib.suppress(OSError):
+        sys.stderr.write(text + "\n")
+        sys.stderr.flush()
 
 
 def track(items: Sequence[Item], title: str) -> Iterator[Item]:
-    """Go through items, with a bar if a person is watching."""
+    """Go through items, with a bar if standard error is a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield from items
@@ -32,7 +47,7 @@ def track(items: Sequence[Item], title: str) -> Iterator[Item]:
 
 @contextmanager
 def busy(title: str) -> Iterator[None]:
-    """Show that something of unknown length goes on, if a person is watching."""
+    """Show that work of unknown length is going on, if standard error is a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield
@@ -41,8 +56,29 @@ def busy(title: str) -> Iterator[None]:
         yield
 
 
-def refuse_existing(paths: Iterable[Path | None], *, force: bool) -> None:
-    """Raise FileError if an output is already there and must not be replaced."""
+@contextmanager
+def keeping(path: Path | None) -> Iterator[None]:
+    """Say that an output is kept, if there is one, when the block is interrupted."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        if path is not None:
+            interrupt.add_note(f"{path} is complete and kept")
+        raise
+
+
+def check_outputs(paths: Iterable[Path | None], *, force: bool) -> None:
+    """Raise FileError if an output exists and must not be replaced, or if two outputs are the same file."""
+    from pilotage.io.files import check_replaceable
+
+    seen = set()
     for path in paths:
-        if path is not None and not force and path.exists():
+        if path is None:
+            continue
+        check_replaceable(path)
+        if path.exists() and not force:
             raise FileError("an output file is already there, --force replaces it", path)
+        real = os.path.realpath(path)
+        if real in seen:
+            raise FileError("two outputs must not be the same file", path)
+        seen.add(real)

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Pose2
@@ -128,12 +129,20 @@ def round_length(length: float) -> float:
     return power * next(step for step in (5.0, 2.0, 1.0) if step * power <= length)
 
 
+def show_literally(text: Text) -> None:
+    """Replace what no font can show: names of files may hold bytes that are not letters."""
+    text.set_text(text.get_text().encode(errors="replace").decode())
+
+
 def save(figure: Figure, path: Path | str) -> None:
     """Write a figure whole or not at all; the name's ending tells the format (png, svg, pdf)."""
     known = figure.canvas.get_supported_filetypes()
     kind = Path(path).suffix.lstrip(".").lower()
     if kind not in known:
         raise FileError("a figure's name must end in .png, .svg or .pdf", path)
+    for text in figure.findobj(Text):
+        assert isinstance(text, Text)
+        show_literally(text)
     with replacing(path) as beside, warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph .* missing")  # a label in a script that the font lacks
         figure.savefig(beside, format=kind, dpi=DPI)

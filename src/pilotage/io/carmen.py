@@ -39,6 +39,7 @@ SATURATION_COUNT = 20  # a largest range that occurs less often than this is no 
 FIELDS_OF_VIEW_DEG = {401: 100.0, 541: 270.0, 1081: 270.0}  # by number of beams; all others 180
 MOUNT_SPREAD = 0.01  # [m, rad] a mount that moves more than this is no mount but a corrected pose
 MOUNT_REACH = 2.0  # [m] no laser sits farther from its robot's center
+FARTHEST = 1e9  # [m] a position beyond this is a broken number
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +123,8 @@ def _new_laser(name: str, words: Sequence[str]) -> _Message:
     _, rest = _counted(rest, at_least=0)
     if not increment > 0.0:
         increment = field_of_view / max(len(ranges) - 1, 1)
+    if not (math.isfinite(angle_min) and math.isfinite(increment)):
+        raise ValueError(f"the angles must be finite, got {angle_min} and steps of {increment} rad")
     if not (increment > 0.0 or len(ranges) == 1):
         raise ValueError(f"the angular resolution must be > 0 rad, got {increment}")
     return _Message(
@@ -154,7 +157,10 @@ def _counted(words: Sequence[str], at_least: int = 1) -> tuple[Array, Sequence[s
 
 def _pose(words: Sequence[str]) -> Pose2:
     """Read x, y and theta."""
-    return Pose2(*_numbers(words, 3))
+    pose = Pose2(*_numbers(words, 3))
+    if max(abs(pose.x), abs(pose.y)) > FARTHEST:
+        raise ValueError(f"a position must be within {FARTHEST:g} m, got ({pose.x:g}, {pose.y:g})")
+    return pose
 
 
 def _odometry(pose: Sequence[str], stamp: Sequence[str]) -> Odometry:

@@ -65,8 +65,11 @@ def rounded(value: float) -> float:
 
 @contextmanager
 def estimates_file(path: Path | str, sketch: SchematicMap) -> Iterator[Callable[[Estimate], None]]:
-    """Open a file for estimates; it appears whole when the block ends, and not at all if the block fails."""
-    with replacing(path) as beside, beside.open("w", encoding="utf-8") as file:
+    """Open a file for estimates; it is complete when the block ends, and absent if the block fails.
+
+    If the block is interrupted, the estimates so far are kept as `name.partial.suffix`.
+    """
+    with replacing(path, keeps_partial=True) as beside, beside.open("w", encoding="utf-8") as file:
         yield lambda estimate: write_estimate(file, estimate, sketch)
 
 

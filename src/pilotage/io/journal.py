@@ -59,8 +59,11 @@ def finite(value: float) -> float | None:
 
 @contextmanager
 def journal_file(path: Path | str, sketch: SchematicMap) -> Iterator[Callable[[Step, Scene], None]]:
-    """Open a journal; it is complete when the block ends, and absent if the block fails."""
-    with replacing(path) as beside, beside.open("w", encoding="utf-8") as file:
+    """Open a journal; it is complete when the block ends, and absent if the block fails.
+
+    If the block is interrupted, the steps so far are kept as `name.partial.suffix`.
+    """
+    with replacing(path, keeps_partial=True) as beside, beside.open("w", encoding="utf-8") as file:
 
         def write(step: Step, scene: Scene) -> None:
             file.write(json.dumps(step_record(step, scene, sketch), allow_nan=False) + "\n")

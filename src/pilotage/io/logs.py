@@ -1,16 +1,13 @@
 """Open a laser log of any format that can be read."""
 
-import gzip
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from pilotage.errors import FileError
 from pilotage.io.carmen import BrokenLine, read_carmen
+from pilotage.io.files import read_bytes
 from pilotage.perception import Odometry, Reading
-
-GZIP_MAGIC = b"\x1f\x8b"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +38,7 @@ class Log:
 
 def open_log(path: Path | str) -> Log:
     """Read a laser log: CARMEN text, gzip or plain. See `Log.complaint` for lines that were left out."""
-    content = read_bytes(Path(path))
+    content = read_bytes(path)
     if not content.strip():
         raise FileError("the file is empty", path)
     log = read_carmen(content.decode("ascii", errors="replace").splitlines())
@@ -51,19 +48,3 @@ def open_log(path: Path | str) -> Log:
         broken = f"; {log.broken_lines[0]}" if log.broken_lines else ""
         raise FileError(f"the log holds no scan that can be read{broken}", path)
     return Log(log.readings, log.odometry, log.broken_lines)
-
-
-def read_bytes(path: Path) -> bytes:
-    """Read a whole file, unpacked if it is packed."""
-    try:
-        content = path.read_bytes()
-    except FileNotFoundError as error:
-        raise FileError("there is no such file", path) from error
-    except OSError as error:
-        raise FileError(f"the file cannot be opened ({error.strerror})", path) from error
-    if not content.startswith(GZIP_MAGIC):
-        return content
-    try:
-        return gzip.decompress(content)
-    except (OSError, EOFError, zlib.error) as error:
-        raise FileError("the packed file is damaged", path) from error

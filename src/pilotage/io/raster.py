@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
+from pilotage.io.files import check_regular
 from pilotage.io.tracing import trace_lines
 from pilotage.maps import SchematicMap
 
@@ -53,6 +54,12 @@ LEAST_CONTRAST = 0.1
 
 STAIR = 1.0
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
+
+FORMATS = ("PNG", "JPEG", "PPM", "GIF", "TIFF", "WEBP", "BMP")
+"""What Pillow may take a file for, whatever its name; others, such as PostScript, would run a program."""
+
+MAX_PIXELS = 20_000_000
+"""A larger picture would need more than 2 GB of memory."""
 
 OPAQUE = 128
 """Alpha from which on a pixel is seen."""
@@ -107,12 +114,19 @@ def read_picture(path: Path) -> Picture:
     """Read the colors of a picture."""
     from PIL import Image, UnidentifiedImageError
 
+    check_regular(path)
     try:
-        with Image.open(path) as image:
+        with Image.open(path, formats=FORMATS) as image:
+            if image.width * image.height > MAX_PIXELS:
+                raise FileError(
+                    f"a picture must have at most {MAX_PIXELS // 1_000_000} million pixels,"
+                    f" got {image.width} x {image.height}",
+                    path,
+                )
             rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
     except FileNotFoundError as error:
         raise FileError("there is no such file", path) from error
-    except (OSError, UnidentifiedImageError, ValueError, Image.DecompressionBombError) as error:
+    except (OSError, UnidentifiedImageError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise FileError(f"a picture cannot be read ({error})", path) from error
     seen = rgba[..., 3] >= OPAQUE
     colors = rgba[..., :3] / 255.0
@@ -203,11 +217,12 @@ def read_map_server(path: Path) -> SchematicMap:
 
 def read_entries(path: Path) -> dict[str, str]:
     """Read the plain `key: value` lines of a YAML file."""
+    check_regular(path)
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError as error:
         raise FileError("there is no such file", path) from error
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise FileError(f"a map_server file cannot be read ({error})", path) from error
     pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
     return {key.strip(): value.strip().strip("'\"") for key, value in pairs}

@@ -7,14 +7,14 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.geometry import Trajectory
-from pilotage.io.logs import read_bytes
+from pilotage.io.files import read_bytes
 
 
 def read_trajectory(path: Path | str) -> Trajectory:
     """Read a trajectory in the plane: height is dropped and of the rotation only the heading is kept."""
     stamps: list[float] = []
     poses: list[tuple[float, float, float]] = []
-    lines = read_bytes(Path(path)).decode("ascii", errors="replace").splitlines()
+    lines = read_bytes(path).decode("ascii", errors="replace").splitlines()
     for number, line in enumerate(lines, start=1):
         words = line.partition("#")[0].split()
         if not words:

@@ -24,6 +24,12 @@ FREE_BELOW = 0.196
 LEAST_ROOM = 0.1
 """Radius of the smallest robot that a world must have room for [m]."""
 
+COARSEST = 100.0
+"""Largest resolution of a map that is accepted [m]."""
+
+FARTHEST = 1e9
+"""Largest coordinate of a map's origin that is accepted [m]."""
+
 MESH = 1000
 """Room is looked for at places this share of a world's diagonal apart, or LEAST_ROOM if that is more."""
 
@@ -55,8 +61,11 @@ def read_map_server_world(path: Path) -> World:
     if "image" not in entries:
         raise FileError("a map_server file must name an image", path)
     resolution = number(entries, "resolution", path)
-    if not 0.0 < resolution < math.inf:
-        raise FileError(f"a map_server file must give a resolution > 0 m, got {resolution}", path)
+    if not 0.0 < resolution <= COARSEST:
+        raise FileError(
+            f"a map_server file must give a resolution > 0 m and at most {COARSEST:g} m, got {resolution:g}",
+            path,
+        )
     world_from_map = origin(entries, path)
     gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
     occupied = gray if number(entries, "negate", path, 0.0) else 1.0 - gray
@@ -84,11 +93,14 @@ def origin(entries: dict[str, str], path: Path) -> Pose2:
     """Read the pose of the lower left corner of a map."""
     try:
         x, y, yaw = (float(value) for value in re.split(r"[\s,]+", entries.get("origin", "").strip("[] \t")))
-        return Pose2(x, y, yaw)
+        pose = Pose2(x, y, yaw)
     except ValueError as error:
         raise FileError(
             f"a map_server file must give origin as [x, y, yaw], got {entries.get('origin')!r}", path
         ) from error
+    if max(abs(x), abs(y)) > FARTHEST:
+        raise FileError(f"a map_server file must give origin as [x, y, yaw] within {FARTHEST:g} m", path)
+    return pose
 
 
 def borders(free: Mask) -> Array:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -11,7 +12,7 @@ import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
-from pilotage.io.logs import read_bytes
+from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.roles import Role, Thing
 from pilotage.io.svg.style import leading_number, local_name
@@ -49,6 +50,9 @@ SIZES = {
 }
 """Measures that must be positive for anything to be seen."""
 
+FARTHEST = 1e9
+"""Largest coordinate that is accepted: beyond it, areas and lengths lose their digits or overflow."""
+
 Bounds = tuple[float, float, float, float]  # left, top, right, bottom
 
 
@@ -68,15 +72,19 @@ def read_svg(path: Path) -> SchematicMap:
     """
     shapes, texts, page = read_content(path)
     drawn = [shape for shape in shapes if shape.drawn.role is Role.WALL and stands(shape.drawn)]
-    walls = without_background(drawn, page)
-    strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
+    with reading_values(path):
+        walls = without_background(drawn, page)
+        strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
     if not strokes:
         raise FileError("a drawing needs at least one visible stroke, found none", path)
+    with reading_values(path):
+        start, goal = (marked(role, shapes, texts) for role in (Role.START, Role.GOAL))
+        labels = tuple(read_label(item) for item in texts if item.role in (Role.WALL, Role.LABEL))
     return SchematicMap(
         strokes,
-        start=marked(Role.START, shapes, texts),
-        goal=marked(Role.GOAL, shapes, texts),
-        labels=tuple(read_label(item) for item in texts if item.role in (Role.WALL, Role.LABEL)),
+        start=start,
+        goal=goal,
+        labels=labels,
         source=str(path),
         y_down=True,
     )
@@ -88,14 +96,23 @@ def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]
     Raises FileError for a file that is missing or is not SVG.
     """
     root = read_document(path)
-    try:
+    with reading_values(path):
         page = read_page(root)
         items = [item for item in walk(root) if item.style.shown]
         shapes = [shape for item in items for shape in read_shape(item)]
-    except (ValueError, IndexError, ArithmeticError) as error:
-        raise FileError(f"an SVG drawing holds a value that cannot be read ({error})", path) from error
     texts = [item for item in items if local_name(item.element.tag) == "text" and has_text(item)]
     return shapes, texts, page
+
+
+@contextmanager
+def reading_values(path: Path) -> Iterator[None]:
+    """Raise FileError for attributes that `svgelements` or the flattening of curves cannot work with."""
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
+        reason = f" ({error})" if isinstance(error, ValueError) and str(error) else ""
+        raise FileError(f"an SVG drawing holds a value that cannot be read{reason}", path) from error
 
 
 def stands(item: Drawn) -> bool:
@@ -106,6 +123,7 @@ def stands(item: Drawn) -> bool:
 
 def read_document(path: Path) -> ET.Element:
     """Parse the file and return its root, an `svg` element."""
+    check_regular(path)
     try:
         root = ET.fromstring(read_bytes(path))  # noqa: S314  # expat itself refuses entity bombs
     except (ET.ParseError, LookupError, ValueError) as error:
@@ -137,8 +155,8 @@ def read_shape(item: Drawn) -> Iterator[Shape]:
     bounds = outline.bbox()
     if bounds is None:
         return
-    if not all(math.isfinite(bound) for bound in bounds):
-        raise ValueError(f"<{local_name(item.element.tag)}> reaches beyond all numbers")
+    if not all(abs(bound) <= FARTHEST for bound in bounds):  # not a number, too
+        raise ValueError(f"<{local_name(item.element.tag)}> reaches farther than {FARTHEST:g}")
     yield Shape(item, outline, bounds)
 
 
@@ -222,6 +240,8 @@ def read_label(item: Drawn) -> Label:
     anchored = {"middle": 0.0, "end": -0.5}.get(style["text-anchor"], 0.5)
     x, y = (first_coordinate(item, name) for name in ("x", "y"))
     middle = apply(item.page_from_element, np.array([x + anchored * len(text) * GLYPH_WIDTH * size, y]))
+    if not np.abs(middle).max() <= FARTHEST:
+        raise ValueError(f"<text> stands farther away than {FARTHEST:g}")
     return Label(text, (float(middle[0]), float(-middle[1])))
 
 

@@ -88,6 +88,9 @@ class Place:
     notes: Mapping[str, str] = field(default_factory=dict)
 
 
+MAX_ELEMENTS = 100_000
+"""Elements of a drawing, repeated ones too: a few nested `use` could ask for millions."""
+
 UNKNOWN_PAGE = Viewport(0.0, 0.0, 100.0, 100.0)
 """What percentages refer to in a document that does not tell its size."""
 
@@ -115,8 +118,12 @@ def walk(root: Element) -> Iterator[Drawn]:
     sheet = StyleSheet.of(root)
     by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
     waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
+    count = 0
     while waiting:
         place = waiting.pop()
+        count += 1
+        if count > MAX_ELEMENTS:
+            raise ValueError(f"more than {MAX_ELEMENTS} elements, those that <use> repeats among them")
         element = place.chain[-1]
         tag = local_name(element.tag) if isinstance(element.tag, str) else ""
         if tag not in DRAWN and tag not in HOLDING and tag != "use":

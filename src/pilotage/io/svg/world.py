@@ -28,6 +28,7 @@ from pilotage.io.svg.reader import (
     flipped,
     marked,
     read_content,
+    reading_values,
     wall_strokes,
     without_background,
 )
@@ -49,8 +50,10 @@ def read_svg_world(path: Path) -> World:
     """
     shapes, _, page = read_content(path)
     bodies = [shape for shape in shapes if shape.drawn.role in (Role.WALL, Role.FURNITURE)]
-    standing = without_background([shape for shape in bodies if shape.drawn.thing is not Thing.PERSON], page)
-    walls = segments_of([shape for shape in standing if shape.drawn.thing is Thing.SOLID])
+    with reading_values(path):
+        bodily = [shape for shape in bodies if shape.drawn.thing is not Thing.PERSON]
+        standing = without_background(bodily, page)
+        walls = segments_of([shape for shape in standing if shape.drawn.thing is Thing.SOLID])
     if len(walls) == 0:
         raise FileError("a world needs at least one visible wall, found none", path)
     try:
@@ -61,7 +64,7 @@ def read_svg_world(path: Path) -> World:
             people=tuple(person for shape in bodies for person in read_people(shape)),
             start=read_start(shapes),
         )
-    except ValueError as error:
+    except (ValueError, TypeError, IndexError, ArithmeticError) as error:
         raise FileError(f"a world holds a value that cannot be meant ({error})", path) from error
 
 
