@@ -6,9 +6,10 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import TypeVar
 
 from pilotage.cli.terminal import say
 from pilotage.errors import PilotageError
@@ -21,6 +22,9 @@ LONGEST = 200
 """Letters of the message of an unexpected error that are shown."""
 SHOW_TRACEBACK = "PILOTAGE_TRACEBACK"
 """An environment variable: if it is set, the traceback of an error is printed before its line."""
+
+
+Item = TypeVar("Item")
 
 
 class Stopped(KeyboardInterrupt):
@@ -82,6 +86,17 @@ def signals_held() -> Iterator[None]:
         number, Signals.waiting = Signals.waiting, None
     if number is not None:
         Signals.handle(number, None)
+
+
+def interrupted_between(items: Iterable[Item]) -> Iterator[Item]:
+    """Go through items, each made while signals are held."""
+    source = iter(items)
+    while True:
+        with signals_held():
+            item = next(source, None)
+        if item is None:
+            return
+        yield item
 
 
 def report(error: BaseException) -> int:
