@@ -130,7 +130,7 @@ def test_localizing_that_is_interrupted_keeps_what_it_had(tmp_path, number):
     code, err = interrupted(number, *SCANS, "-o", tmp_path / "out.jsonl")
     partial = tmp_path / "out.partial.jsonl"
 
-    assert 128 + number == code
+    assert 128 + number == code, err
     assert f"pilotage: interrupted; what was written so far is kept in {partial}\n" == err
     assert [partial] == list(tmp_path.iterdir())
     assert partial.read_text().startswith("{")

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-from pilotage.cli.exits import Stopped
+from pilotage.cli.exits import Stopped, interrupted_between
 from pilotage.cli.terminal import busy, keeping, say
 from pilotage.errors import FileError
 
@@ -44,7 +44,7 @@ def follow(
     gathered = []
     with progress(graph) as show:
         try:
-            for instant in instants:
+            for instant in interrupted_between(instants):
                 gathered.append(instant)
                 write(instant.step, instant.scene)
                 show(instant.step)

@@ -6,9 +6,10 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import TypeVar
 
 from pilotage.cli.terminal import say
 from pilotage.errors import PilotageError
@@ -23,6 +24,9 @@ SHOW_TRACEBACK = "PILOTAGE_TRACEBACK"
 """An environment variable: if it is set, the traceback of an error is printed before its line."""
 
 
+Item = TypeVar("Item")
+
+
 class Stopped(KeyboardInterrupt):
     """The run was asked to end by a signal other than that of Ctrl-C."""
 
@@ -31,27 +35,68 @@ class Stopped(KeyboardInterrupt):
         self.number = number
 
 
+class Signals:
+    """What signals do: they interrupt at once, or after the block in which they are held back."""
+
+    holding = False
+    waiting: int | None = None
+
+    @classmethod
+    def handle(cls, number: int, _frame: FrameType | None) -> None:
+        """Interrupt what is going on, now or at the end of a block that holds signals back."""
+        if cls.holding and cls.waiting is None:
+            cls.waiting = number
+        else:
+            cls.waiting = None
+            raise KeyboardInterrupt if number == signal.SIGINT else Stopped(number)
+
+
 @contextmanager
 def interrupted_by_signals() -> Iterator[None]:
     """Let SIGTERM and SIGHUP interrupt as Ctrl-C does, so that no temporary file is left.
 
     A signal that the caller ignores or handles, as `nohup` does, is left alone.
     """
-    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    names = ("SIGINT", "SIGTERM", "SIGHUP")
+    numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
     is_main = threading.current_thread() is threading.main_thread()
-    ours = [number for number in numbers if is_main and signal.getsignal(number) == signal.SIG_DFL]
+    defaults = (signal.SIG_DFL, signal.default_int_handler)
+    before = {number: signal.getsignal(number) for number in numbers if is_main}
+    ours = {number: handler for number, handler in before.items() if handler in defaults}
     for number in ours:
-        signal.signal(number, stop)
+        signal.signal(number, Signals.handle)
     try:
         yield
     finally:
-        for number in ours:
-            signal.signal(number, signal.SIG_DFL)
+        for number, handler in ours.items():
+            signal.signal(number, handler)
 
 
-def stop(number: int, _frame: FrameType | None) -> None:
-    """Interrupt what is going on."""
-    raise Stopped(number)
+@contextmanager
+def signals_held() -> Iterator[None]:
+    """Let a signal wait until the block is done: an exception inside compiled code may crash Python.
+
+    A second signal does not wait.
+    """
+    Signals.holding = True
+    try:
+        yield
+    finally:
+        Signals.holding = False
+        number, Signals.waiting = Signals.waiting, None
+    if number is not None:
+        Signals.handle(number, None)
+
+
+def interrupted_between(items: Iterable[Item]) -> Iterator[Item]:
+    """Go through items, each made while signals are held."""
+    source = iter(items)
+    while True:
+        with signals_held():
+            item = next(source, None)
+        if item is None:
+            return
+        yield item
 
 
 def report(error: BaseException) -> int:

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pilotage.cli.exits import signals_held
 from pilotage.cli.terminal import busy, say, track
 from pilotage.errors import FileError
 
@@ -69,8 +70,9 @@ def run(
     """Localize scan by scan, each estimate written as it comes."""
     estimates = []
     for reading in track(readings, "Localizing"):
-        estimates.append(localizer.update(reading.scan, reading.odometry))
-        write(estimates[-1])
+        with signals_held():
+            estimates.append(localizer.update(reading.scan, reading.odometry))
+            write(estimates[-1])
     return estimates
 
 
