@@ -20,4 +20,4 @@ class FileError(PilotageError):
 
 
 class SettingsError(PilotageError, ValueError):
-    """A setting is unknown or cannot be meant."""
+    """A setting is unknown or invalid."""

@@ -101,12 +101,13 @@ def summary(estimates: "Sequence[Estimate]") -> str:
 
     located = [k for k, estimate in enumerate(estimates) if estimate.status is Status.LOCATED]
     count = f"{len(estimates)} scan{'s' if len(estimates) != 1 else ''}"
-    if not located:
-        return f"{count}: lost in all of them."
     final = estimates[-1]
-    end = (
-        f"in {final.place} with probability {final.probability:.2f}"
-        if final.status is Status.LOCATED
-        else "lost"
-    )
+    misfit = f"this drawing does not seem to be of this building (fit {final.fit:.2f})"
+    if not located:
+        return f"{count}: lost in all of them{f'; {misfit}' if final.status is Status.MISMATCH else ''}."
+    end = {
+        Status.LOCATED: f"in {final.place} with probability {final.probability:.2f}",
+        Status.LOST: "lost",
+        Status.MISMATCH: misfit,
+    }[final.status]
     return f"{count}: located in {len(located)}, the first time at scan {located[0]}; at the end {end}."

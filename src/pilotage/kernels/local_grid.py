@@ -14,7 +14,7 @@ from pilotage.kernels.compiling import njit
 HIT = 3  # evidence that one return adds
 MOST = 4  # evidence of a wall that was seen often: as many scans must pass through to clear it
 STRAIGHT, DIAGONAL = 10, 14  # costs of a step at full clearance
-DEAREST = 6  # how many times dearer a step is where the robot just fits through
+DEAREST = 6  # factor on the cost of a step where the robot just fits through
 UNREACHED = 2**31 - 1
 
 
@@ -94,7 +94,7 @@ def flood(
     """Find the cheapest ways from `start` to all cells that were seen free: costs and what comes before each.
 
     A robot fits where the clearance is `tight` cells, and moves at ease where it is `easy`; in between a step
-    is dearer. Within `freed` cells of the start it may also move to where the clearance grows, to get away
+    costs more. Within `freed` cells of the start it may also move to where the clearance grows, to get away
     from a wall that it stands too near to. Costs are in STRAIGHT a cell, UNREACHED if there is no way;
     before (width, height) is i * height + j, -1 at the start. Dijkstra with buckets (Dial 1969).
     """

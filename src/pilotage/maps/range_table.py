@@ -20,7 +20,7 @@ class RangeTableSettings:
     clearance: float = 0.3  # [cells] a robot is not nearer than this to a stroke
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be meant."""
+        """Reject invalid settings."""
         for name in ("cells", "directions"):
             if not getattr(self, name) >= 1:
                 raise ValueError(f"{name} must be >= 1, got {getattr(self, name)}")
@@ -64,7 +64,7 @@ class RangeTable:
     def sees(self, lines: NDArray[np.int64], point: Array) -> NDArray[np.bool_]:
         """Tell from which lines (n,) a point (2,) [drawing units] is in sight, (n,).
 
-        Give or take a cell and a direction: so does who stands close to a wall see along it.
+        Tolerates one cell and one direction step, so that places close to a wall still see along it.
         """
         from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
 

@@ -15,7 +15,7 @@ from pilotage.simulation.world import World
 class LaserSettings:
     """What the scanner is like; as it stands, the SICK of the nineties: 181 beams over 180 degrees."""
 
-    beams: int = 181
+    beams: int = 181  # directions, evenly spaced over the field of view
     field_of_view: float = math.pi  # [rad] from the first beam to the last, symmetric about forward
     range_max: float = 30.0  # [m]
     noise: float = 0.015  # [m] standard deviation of a range

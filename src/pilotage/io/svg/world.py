@@ -65,7 +65,7 @@ def read_svg_world(path: Path) -> World:
             start=read_start(shapes),
         )
     except (ValueError, TypeError, IndexError, ArithmeticError) as error:
-        raise FileError(f"a world holds a value that cannot be meant ({error})", path) from error
+        raise FileError(f"a world holds an invalid value ({error})", path) from error
 
 
 def segments_of(shapes: Sequence[Shape]) -> Array:
