@@ -31,7 +31,7 @@ CLASSES = np.stack([STEEP, 2.0 * STEEP])  # ... and twice that for readings of t
 
 
 def plain_sum(state, beams, ranges):
-    """The definition, in metres and radians: sum of -|log(predicted / measured)|, twice for each second beam."""
+    """The definition, in metres and radians: sum of -|log(predicted / measured)|, the second class twice."""
     x, y, heading, log_scale, p, q = state
     cell = 40 * math.floor((x + 2) / 0.1) + math.floor((y + 2) / 0.1)
     values, vectors = np.linalg.eigh([[p, q], [q, -p]])

@@ -31,9 +31,9 @@ def particles_of(weights):
     return Particles(states, np.array(weights))
 
 
-def near(x, y, heading, count, log_mass, seed=0):
+def near(x, y, heading, count, log_mass):
     """Draw particles about a pose whose masses sum up to so much."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     states = draw_near(Pose2(x, y, heading), ATLAS, KNOWN_SCALE, count, rng, heading_std=0.05)
     states[[X, Y]] = np.array([[x], [y]]) + 0.1 * rng.standard_normal((2, count))
     states[LOG_SCALE] = 0.0
