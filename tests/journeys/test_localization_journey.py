@@ -1,4 +1,4 @@
-"""Logs on drawings of their buildings: a robot that is put down anywhere finds its room, and knows when lost."""
+"""Logs on drawings of their buildings: a robot put down anywhere finds its room, doubts when carried off."""
 
 import json
 import math
@@ -46,7 +46,7 @@ def test_a_robot_finds_its_room_on_a_quick_drawing(building):
 
 @pytest.fixture(scope="module")
 def office():
-    """The quick drawing of the packed office, its log, and where the robot was on the drawing at each scan."""
+    """The quick drawing of the packed office, its log, and the true place on the drawing at each scan."""
     truth = [json.loads(line) for line in worlds.TRUTH.read_text().splitlines()]
     places = np.array([(one["x"], one["y"]) for one in truth])
     return build_atlas(open_map(worlds.OFFICE.quick), AtlasSettings()), open_log(worlds.LOG).readings, places
