@@ -19,7 +19,7 @@ def main(drawing: str, log: str) -> None:
         estimate = localizer.update(reading.scan, reading.odometry)
         now = f"{estimate.status.value} in {estimate.cell_id}"
         if now != said:
-            print(f"{estimate.stamp:8.1f} s  {now}, confidence {estimate.confidence:.2f}")
+            print(f"{estimate.stamp:8.1f} s  {now}, probability {estimate.probability:.2f}")
             said = now
 
 

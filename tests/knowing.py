@@ -22,7 +22,7 @@ def estimate_of(*hypotheses, stamp=0.0, status=Status.LOCATED, cell_probability=
     return Estimate(
         stamp=stamp, status=status, hypotheses=hypotheses, cell_probability=cell_probability, fit=fit,
         place=hypotheses[0].cell_id, x=pose.x, y=-pose.y if y_down else pose.y, heading=pose.theta,
-        scale=sketch_from_base.scale,
+        scale=sketch_from_base.scale, y_down=y_down,
     )  # fmt: skip
 
 

@@ -5,14 +5,15 @@ import math
 import numpy as np
 import pytest
 
+from knowing import estimate_of, hypothesis_at
 from pilotage import open_map, worlds
 from pilotage.errors import FileError
 from pilotage.figures.drawing import drawing_figure
 from pilotage.figures.path import path_figure
 from pilotage.figures.scan import scan_figure
 from pilotage.figures.style import new_figure, save
-from pilotage.geometry import Polyline, Pose2, Similarity2
-from pilotage.localization import Estimate, Hypothesis, Status
+from pilotage.geometry import Polyline, Pose2
+from pilotage.localization import Status
 from pilotage.maps import Label, SchematicMap
 from pilotage.perception import LaserScan, PerceptionSettings, perceive
 from pilotage.shape import Simplification, simplify_all
@@ -23,9 +24,14 @@ def scan_of(ranges):
 
 
 def estimate(k, *, status=Status.LOCATED, x=0.0, rivals=()):
-    here = Similarity2(20.0, Pose2(100.0 + x + 3.0 * k, -200.0, 0.0))
-    hypotheses = [Hypothesis("c1", Similarity2(20.0, Pose2(x, -300.0, 0.0)), 0.2) for x in rivals]
-    return Estimate(float(k), status, "c1", here, 0.5, tuple(hypotheses))
+    here = Pose2(100.0 + x + 3.0 * k, -200.0, 0.0)
+    poses = [here, *(Pose2(rival, -300.0, 0.0) for rival in rivals)]
+    shares = [0.5, *(0.2 for _ in rivals)]
+    hypotheses = [
+        hypothesis_at(pose, scale=20.0, cell_id="c1", probability=share)
+        for pose, share in zip(poses, shares, strict=True)
+    ]
+    return estimate_of(*hypotheses, stamp=float(k), status=status)
 
 
 @pytest.mark.parametrize(

@@ -5,14 +5,20 @@ import math
 
 import pytest
 
-from pilotage.geometry import Polyline, Pose2, Similarity2
+from knowing import estimate_of, hypothesis_at
+from pilotage.geometry import Polyline, Pose2
 from pilotage.io.estimates import estimates_file
-from pilotage.localization import Estimate, Hypothesis, Status
 from pilotage.maps import SchematicMap
 
 SKETCH = SchematicMap((Polyline.through([(0, 0), (9, -9)]),), y_down=True)
-HERE = Similarity2(20.0, Pose2(30.0, -40.0, math.pi / 2))
-ESTIMATE = Estimate(1.5, Status.LOCATED, "c1", HERE, 0.75, (Hypothesis("c2", HERE, 0.25),))
+HERE = Pose2(30.0, -40.0, math.pi / 2)
+ESTIMATE = estimate_of(
+    hypothesis_at(HERE, scale=20.0, cell_id="c1", probability=0.75),
+    hypothesis_at(HERE, scale=20.0, cell_id="c2", probability=0.25),
+    stamp=1.5,
+    fit=0.5,
+    y_down=True,
+)
 
 
 def test_a_line_holds_what_it_should(tmp_path):
@@ -27,10 +33,15 @@ def test_a_line_holds_what_it_should(tmp_path):
     assert {
         "stamp": 1.5,
         "status": "located",
+        "place": "c1",
         "cell": "c1",
         **place,
-        "confidence": 0.75,
-        "hypotheses": [{"cell": "c2", **place, "probability": 0.25}],
+        "probability": 0.75,
+        "fit": 0.5,
+        "hypotheses": [
+            {"cell": "c1", **place, "probability": 0.75},
+            {"cell": "c2", **place, "probability": 0.25},
+        ],
     } == json.loads(first)
 
 

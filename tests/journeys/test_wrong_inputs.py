@@ -9,13 +9,14 @@ import pytest
 from pilotage import Localizer, LocalizerSettings, open_log, open_map, worlds
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Pose2
-from pilotage.localization import Status, TrackingSettings
+from pilotage.localization import Status, TrackSettings
 from pilotage.maps import AtlasSettings, RangeTableSettings
 from pilotage.perception import LaserScan, Odometry, Reading
 
 FEW = LocalizerSettings(  # enough to fall over
     atlas=AtlasSettings(range_table=RangeTableSettings(cells=80, directions=60)),
-    tracking=TrackingSettings(first_count=4000, count=2000, least=1000),
+    tracks=TrackSettings(first_count=4_000, max_count=2_000, min_count=1_000),
+    proposals=500,
 )
 HOUSE = '<rect x="{x}" y="{y}" width="60" height="40" fill="none" stroke="black"/>'
 
@@ -34,8 +35,8 @@ def reading(k, ranges, *, stamp=None, step=0.2):
 
 def is_sane(estimate):
     place = estimate.sketch_from_base
-    numbers = (place.scale, place.pose.x, place.pose.y, place.pose.theta, estimate.confidence)
-    return all(map(math.isfinite, numbers)) and 0.0 <= estimate.confidence <= 1.0 and place.scale > 0.0
+    numbers = (place.scale, place.pose.x, place.pose.y, place.pose.theta, estimate.probability)
+    return all(map(math.isfinite, numbers)) and 0.0 <= estimate.probability <= 1.0 and place.scale > 0.0
 
 
 @pytest.fixture(scope="module")
@@ -164,10 +165,20 @@ def test_estimates_on_standard_output_are_json_lines(pilotage):
 
     assert 0 == outcome.code
     assert 3 == len(records)
-    assert all(
-        {"stamp", "status", "cell", "x", "y", "heading", "scale", "confidence", "hypotheses"} == set(one)
-        for one in records
-    )
+    names = {
+        "stamp",
+        "status",
+        "place",
+        "cell",
+        "x",
+        "y",
+        "heading",
+        "scale",
+        "probability",
+        "fit",
+        "hypotheses",
+    }
+    assert all(names == set(one) for one in records)
     assert outcome.err.startswith("3 scans: ")
 
 

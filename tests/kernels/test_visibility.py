@@ -26,21 +26,22 @@ def room_table():
 
 
 LEVELS, RANGES = room_table()
-STEEP = -np.abs(np.arange(-400, 401) * kernel.LOG_STEP).astype(np.float32)  # log-likelihood is -|e|
+STEEP = -np.abs(np.arange(-400, 401) * kernel.LOG_STEP).astype(np.float32)  # -|e| ...
+CLASSES = np.stack([STEEP, 2.0 * STEEP])  # ... and twice that for readings of the second class
 
 
-def plain_score(state, beams, ranges):
-    """The definition, in metres and radians: sum of -|log(predicted / measured)|."""
+def plain_sum(state, beams, ranges):
+    """The definition, in metres and radians: sum of -|log(predicted / measured)|, the second class twice."""
     x, y, heading, log_scale, p, q = state
     cell = 40 * math.floor((x + 2) / 0.1) + math.floor((y + 2) / 0.1)
     values, vectors = np.linalg.eigh([[p, q], [q, -p]])
     stretch = vectors @ np.diag(np.exp(values)) @ vectors.T
     score = 0.0
-    for beam, measured in zip(beams, ranges, strict=True):
+    for k, (beam, measured) in enumerate(zip(beams, ranges, strict=True)):
         angle = heading + beam * math.tau / kernel.HEADINGS
         vector = math.exp(log_scale) * stretch @ (math.cos(angle), math.sin(angle))
         direction = round(math.atan2(vector[1], vector[0]) / math.tau * DIRECTIONS) % DIRECTIONS
-        score -= abs(math.log(RANGES[cell, direction] / math.hypot(*vector) / measured))
+        score -= (1 + k % 2) * abs(math.log(RANGES[cell, direction] / math.hypot(*vector) / measured))
     return score
 
 
@@ -52,26 +53,26 @@ def plain_score(state, beams, ranges):
     stretch=st.tuples(st.sampled_from([-0.4, 0.0, 0.2]), st.sampled_from([-0.2, 0.0, 0.6])),
     ranges=st.lists(st.floats(0.3, 5.0), min_size=1, max_size=20),
 )
-def test_scores_follow_the_definition(place, heading, log_scale, stretch, ranges):
+def test_sums_follow_the_definition(place, heading, log_scale, stretch, ranges):
     beams = np.arange(len(ranges), dtype=np.int32) * 11 % kernel.HEADINGS
     heading = round(heading / math.tau * kernel.HEADINGS) * math.tau / kernel.HEADINGS
     state = np.array([*place, heading, log_scale, *stretch])
     levels = np.round(np.log(ranges) / kernel.LOG_STEP).astype(np.int32)
 
-    score = kernel.score_hypotheses(
+    classes = np.arange(len(ranges), dtype=np.int32) % 2
+    score = kernel.sum_over_beams(
         state[:, np.newaxis],
-        beams,
-        levels,
+        (beams, levels, classes),
         LEVELS,
         GRID,
         kernel.stretch_tables(DIRECTIONS),
-        STEEP,
+        CLASSES,
         (0, 0.0),
         -1.0,
     )[0]
 
     # four lengths are rounded to whole steps, and a direction may fall to either side of a half step
-    assert abs(score - plain_score(state, beams, ranges)) <= len(ranges) * (2 * kernel.LOG_STEP + 0.05)
+    assert abs(score - plain_sum(state, beams, ranges)) <= classes.size * 2 * (2 * kernel.LOG_STEP + 0.05)
 
 
 def score_one(x, levels, no_return=(0, -3.0)):
@@ -79,10 +80,11 @@ def score_one(x, levels, no_return=(0, -3.0)):
     beams = np.zeros(len(levels), np.int32)
     tables = kernel.stretch_tables(DIRECTIONS)
     levels = np.array(levels, np.int32)
-    return kernel.score_hypotheses(state, beams, levels, LEVELS, GRID, tables, STEEP, no_return, -5.0)[0]
+    scan = (beams, levels, np.zeros_like(beams))
+    return kernel.sum_over_beams(state, scan, LEVELS, GRID, tables, CLASSES, no_return, -5.0)[0]
 
 
-def test_a_hypothesis_off_the_drawing_pays_for_every_beam():
+def test_a_particle_off_the_drawing_pays_for_every_beam():
     assert -10.0 == score_one(3.0, [0, 0])
 
 

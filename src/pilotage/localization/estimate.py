@@ -148,16 +148,15 @@ def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: At
 
 def find_hypotheses(particles: Particles, atlas: Atlas) -> tuple[PoseHypothesis, ...]:
     """Gather particles around the densest points, the most probable first; at least one."""
-    remaining = np.exp(particles.log_weights)
+    mass, remaining = math.exp(particles.log_mass), particles.shares
     found: list[PoseHypothesis] = []
     while len(found) < MAX_HYPOTHESES:
         middle, scale = _densest(particles, remaining, atlas)
         distance = np.hypot(particles.states[X] - middle[0], particles.states[Y] - middle[1]) / scale
         members = (distance <= RADIUS) & (remaining > 0.0)
-        mass = float(remaining[members].sum())
-        if found and mass < MIN_PROBABILITY:
+        if found and mass * float(remaining[members].sum()) < MIN_PROBABILITY:
             break
-        found.append(_hypothesis(particles.states[:, members], remaining[members], atlas))
+        found.append(_hypothesis(particles.states[:, members], remaining[members], mass, atlas))
         remaining = np.where(members, 0.0, remaining)
         if not remaining.any():
             break
@@ -204,8 +203,8 @@ def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array,
     return middle[:2], math.exp(float(middle[LOG_SCALE]))
 
 
-def _hypothesis(states: Array, weights: Array, atlas: Atlas) -> PoseHypothesis:
-    """Sum up particles that stand close together."""
+def _hypothesis(states: Array, weights: Array, mass: float, atlas: Atlas) -> PoseHypothesis:
+    """Sum up particles that stand close together; their weights are shares of this mass."""
     mean = mean_state(states, weights)
     offsets = states[[X, Y]] - mean[[X, Y], np.newaxis]
     covariance = np.einsum("in,jn,n->ij", offsets, offsets, weights / weights.sum())
@@ -215,7 +214,7 @@ def _hypothesis(states: Array, weights: Array, atlas: Atlas) -> PoseHypothesis:
     return PoseHypothesis(
         atlas.cell_at((float(mean[X]), float(mean[Y]))),
         Affine2.from_state(*mean.tolist()),
-        float(min(weights.sum(), 1.0)),
+        min(mass * float(weights.sum()), 1.0),
         math.sqrt(float(variances.sum())) / math.exp(float(mean[LOG_SCALE])),
         (float(axis[0]), float(axis[1])),
     )

@@ -24,7 +24,7 @@ BLOCK = 1.0
 SECTORS = 12
 """... if their headings lie in neighboring sectors, of so many, as well."""
 MIN_SHARE = 1e-5
-"""Share of the mass on the drawing below which a block is pruned."""
+"""Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
 MINOR_SHARE = 0.02
 """Tracks with a smaller share get few particles."""
 MINOR_COUNT = (500, 1_500)
@@ -108,7 +108,7 @@ def cluster(
         return Tracks((), log_null)
     keys, inverse = np.unique(_block_keys(particles, atlas), return_inverse=True)
     shares = np.bincount(inverse, particles.shares).astype(np.float64)
-    count, labels = _connected(keys, shares > MIN_SHARE)
+    count, labels = _connected(keys, shares > min(MIN_SHARE, 0.1 * float(shares.max())))
     of_particle = labels[inverse]
     totals = np.bincount(labels[labels >= 0], shares[labels >= 0], count).astype(np.float64)
     wanted = _counts(shares, labels, totals, settings)
@@ -175,7 +175,8 @@ def _counts(
     minor = totals < MINOR_SHARE * totals.sum()
     wanted = np.where(minor, np.clip(wanted, *MINOR_COUNT), np.maximum(wanted, settings.min_count))
     wanted *= min(1.0, settings.max_count / wanted.sum())
-    return np.maximum(wanted, 100).astype(np.int64)
+    least = min(100.0, 10.0 * settings.max_count / len(wanted))  # crumbs must not add up to millions
+    return np.maximum(wanted, least).astype(np.int64)
 
 
 def _resample(particles: Particles, wanted: int, rng: np.random.Generator) -> Particles:
