@@ -23,7 +23,7 @@ def test_a_goal_that_is_reached_is_told_with_what_it_took():
     told = story(DRIVE)
 
     assert told.startswith("After 4 m and 0:07 minutes the robot says that it stands at the goal, in c")
-    assert told.endswith("It knew its place after 0:01 and touched nothing.")
+    assert told.endswith("It first claimed a place after 0:01 and touched nothing.")
 
 
 def test_a_drive_that_is_given_up_says_why():
@@ -51,7 +51,7 @@ def test_a_robot_that_never_knew_and_touched_something_says_so():
     told = story(replace(DRIVE, steps=steps, scenes=scenes))
 
     assert told.startswith("The drive was stopped after 0 m")
-    assert told.endswith("It never knew its place and touched something once.")
+    assert told.endswith("It never claimed a place and touched something once.")
 
 
 def test_each_step_is_written_and_a_line_is_said_now_and_then(capsys):

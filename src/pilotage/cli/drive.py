@@ -123,9 +123,9 @@ def story(recorded: "Drive") -> str:
     last, scene = recorded.steps[-1], recorded.scenes[-1]
     located = [step.estimate.status is Status.LOCATED for step in recorded.steps]
     found = (
-        f"knew its place after {clock(recorded.times[located.index(True)])}"
+        f"first claimed a place after {clock(recorded.times[located.index(True)])}"
         if any(located)
-        else "never knew its place"
+        else "never claimed a place"
     )
     lost = {0: "", 1: ", lost it once"}.get(last.times_lost, f", lost it {last.times_lost} times")
     touched = {0: "nothing", 1: "something once"}.get(scene.collisions, f"things {scene.collisions} times")
