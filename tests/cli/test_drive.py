@@ -36,7 +36,7 @@ def test_a_drive_that_is_given_up_says_why():
 def test_a_drawing_that_does_not_fit_is_said_and_no_place_is_claimed():
     told = story(ended(outcome=Outcome.MISMATCH, reason="this drawing does not fit this building"))
 
-    assert "the robot gave up: this drawing does not fit this building. It knew" in told
+    assert "the robot gave up: this drawing does not fit this building. It first claimed" in told
     assert "believes" not in told
 
 
