@@ -1,8 +1,11 @@
 """The examples do what they say."""
 
+import gzip
 import runpy
 import sys
 from pathlib import Path
+
+from pilotage import worlds
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -14,3 +17,15 @@ def test_the_robot_of_the_example_reaches_the_archive(monkeypatch, capsys):
 
     assert "explore, lost in" in lines[0]
     assert "is reached; " in lines[-1]
+
+
+def test_the_robot_of_the_other_example_says_where_it_is(monkeypatch, capsys, tmp_path):
+    log = tmp_path / "run.log"
+    with gzip.open(worlds.LOG, "rt") as whole:
+        log.write_text("".join(list(whole)[:40]))
+    monkeypatch.setattr(sys, "argv", ["01_localize.py", str(worlds.OFFICE.quick), str(log)])
+    runpy.run_path(str(EXAMPLES / "01_localize.py"), run_name="__main__")
+    first, *_ = capsys.readouterr().out.splitlines()
+
+    assert "0.0 s  lost in c" in first
+    assert ", probability 0." in first
