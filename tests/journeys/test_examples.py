@@ -5,11 +5,14 @@ import runpy
 import sys
 from pathlib import Path
 
+import pytest
+
 from pilotage import worlds
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
+@pytest.mark.slow
 def test_the_robot_of_the_example_reaches_the_archive(monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["02_navigate.py"])
     runpy.run_path(str(EXAMPLES / "02_navigate.py"), run_name="__main__")
@@ -19,6 +22,7 @@ def test_the_robot_of_the_example_reaches_the_archive(monkeypatch, capsys):
     assert "is reached; " in lines[-1]
 
 
+@pytest.mark.slow
 def test_the_robot_of_the_other_example_says_where_it_is(monkeypatch, capsys, tmp_path):
     log = tmp_path / "run.log"
     with gzip.open(worlds.LOG, "rt") as whole:
