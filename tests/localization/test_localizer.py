@@ -143,6 +143,7 @@ def test_a_scan_that_shows_nothing_leaves_the_robot_lost(atlas):
     assert Status.LOST is Localizer(atlas, SMALL).update(blind, Odometry(0.0, Pose2.identity())).status
 
 
+@pytest.mark.slow
 def test_a_drawing_of_a_vast_place_is_no_reason_to_fall_over(atlas):
     blind = LaserScan(0.0, -1.0, 0.1, np.full(21, np.nan))
     localizer = Localizer(atlas, SMALL, scale=0.05)  # as if the flat were 2.4 km long
@@ -197,6 +198,7 @@ def test_a_start_is_two_or_three_finite_numbers(atlas, start):
         Localizer(atlas, start=start)
 
 
+@pytest.mark.slow
 def test_scans_close_together_or_far_apart_lead_to_the_same_place(atlas):
     poses = [*PATH, *reversed(PATH), PATH[0]]
     poses = poses[: len(poses) // 2 * 2 - 1]  # the last one is in both
@@ -209,6 +211,7 @@ def test_scans_close_together_or_far_apart_lead_to_the_same_place(atlas):
     assert Status.LOCATED is often.status is rarely.status
 
 
+@pytest.mark.slow
 def test_a_robot_that_was_told_a_wrong_start_finds_itself_in_the_end(atlas):
     poses = [*PATH, *reversed(PATH)] * 2
     localizer = Localizer(atlas, SMALL, start=in_file(Pose2(9.0, 6.0, 2.5)), scale=12.0)
