@@ -198,16 +198,16 @@ def test_scores_of_particles(benchmark: BenchmarkFixture) -> None:
         ]
     )
     beams = np.arange(60, dtype=np.int32) * (visibility.HEADINGS // 60)
+    scan_levels = np.round(np.log(rng.uniform(0.5, 5.0, 60)) / visibility.LOG_STEP).astype(np.int32)
     arguments = (
         states,
-        beams,
-        np.round(np.log(rng.uniform(0.5, 5.0, 60)) / visibility.LOG_STEP).astype(np.int32),
+        (beams, scan_levels, np.zeros(60, dtype=np.int32)),
         np.clip(np.round(levels), 0, 255).astype(np.uint8),
         GRID,
         visibility.stretch_tables(DIRECTIONS),
-        -np.abs(np.arange(-400, 401) * visibility.LOG_STEP).astype(np.float32),
+        -np.abs(np.arange(-400, 401) * visibility.LOG_STEP).astype(np.float32)[np.newaxis],
         (0, 0.0),
         -1.0,
     )
-    visibility.score_hypotheses(*arguments)
-    benchmark(visibility.score_hypotheses, *arguments)
+    visibility.sum_over_beams(*arguments)
+    benchmark(visibility.sum_over_beams, *arguments)

@@ -20,8 +20,7 @@ from pilotage.maps import (
 from pilotage.maps.range_table import build_range_table
 from pilotage.navigation import Navigator
 from pilotage.perception import PerceptionSettings, Reading, perceive
-from pilotage.scan_matching import PerceptionMap, PerceptionMapSettings
-from pilotage.scan_matching.register import RegistrationSettings, register
+from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
 from pilotage.simulation import Simulator, SimulatorSettings, find_start
 from pilotage.worlds import OFFICE
 
@@ -62,13 +61,11 @@ def test_scan_to_shapes(benchmark: BenchmarkFixture, office: Office) -> None:
 
 
 def test_register(benchmark: BenchmarkFixture, office: Office) -> None:
-    """3.3: register a scan into the local map."""
-    settings, local_map = RegistrationSettings(), PerceptionMap(PerceptionMapSettings())
-    for reading in office.readings[-100:-1]:
-        seen = perceive(reading.scan, PerceptionSettings())
-        local_map = local_map.merged(register(seen, local_map, reading.odometry, settings))
-    last = office.readings[-1]
-    benchmark(register, perceive(last.scan, PerceptionSettings()), local_map, last.odometry, settings)
+    """2.1 to 3.3: register a scan into the local map."""
+    matcher, last = ScanMatcher(ScanMatchingSettings()), office.readings[-1]
+    for reading in office.readings[-100:]:
+        matcher.update(reading.scan, reading.odometry)
+    benchmark(matcher.update, last.scan, last.odometry)
 
 
 def test_range_table(benchmark: BenchmarkFixture, office: Office) -> None:
@@ -132,10 +129,10 @@ def test_steering(benchmark: BenchmarkFixture) -> None:
 
 def test_reachable_set(benchmark: BenchmarkFixture, office: Office) -> None:
     """The cheapest ways to everything that is seen free."""
-    from pilotage.navigation.surroundings import Surroundings, SurroundingsSettings
+    from pilotage.navigation.local_grid import LocalGrid
 
-    grid = Surroundings.unseen(SurroundingsSettings())
+    grid = LocalGrid.unknown()
     for reading in office.readings:
         grid = grid.seen(reading.scan, reading.odometry.odom_from_base)
-    grid.reach(0.2)
-    benchmark(grid.reach, 0.2)
+    grid.reachable_set(0.2)
+    benchmark(grid.reachable_set, 0.2)

@@ -1,7 +1,7 @@
 """Search the drawing for places that explain the last metres, whatever its scale (Wolter 2001, section 3.4).
 
 Proposals from all over the drawing are weighed by the sensor model over a window of keyframes: cheap tests on
-many first, dear tests on few last. Those that remain are refined where they stand.
+many first, costly tests on few last. Those that remain are refined where they stand.
 """
 
 import math
@@ -22,7 +22,7 @@ WINDOW = 10.0
 SCANS = 8
 """Scans of the window that are compared, evenly spaced."""
 KEPT = (6, 30)
-"""One in so many proposals is kept after the newest scan, and after half of the scans."""
+"""One in 6 proposals is kept after the newest scan, and one in 30 after half of the scans."""
 ROUNDS = 4
 """Rounds of refinement."""
 MOVES = np.array([0.3, 0.3, math.radians(4.0), 0.08, 0.08, 0.08])

@@ -20,8 +20,8 @@ from pilotage.localization.particles import (
 from pilotage.localization.prior import Prior
 from pilotage.maps import Atlas
 
-# Drift of a drawing's errors, as standard deviations per sqrt(m): decisions 0015 and 0018 tell how they were
-# chosen. Proportions change by 25 % over 10 m; corridors are drawn too short or too long; angles are off.
+# Drift of a drawing's errors, as standard deviations per sqrt(m): decision 0018 tells how they were chosen.
+# Proportions change by 25 % over 10 m; corridors are drawn too short or too long; angles are off.
 SCALE_DRIFT = 0.08
 STRETCH_DRIFT = 0.12
 LENGTH_DRIFT = 0.08

@@ -1,9 +1,9 @@
-"""A clustered particle filter: tracks compete by evidence, one of them "on no place of this drawing".
+"""A clustered particle filter: tracks compete by evidence, one of them says "no place here".
 
 Clusters of particles are resampled apart, each keeping its mass, so that a place is given up only because of
 evidence and never by chance (Milstein, Sanchez and Williamson 2002; Vermaak, Doucet and Perez 2003). All
-masses together are 1. This null track is not moved, and
-its likelihood is that of ranges in any building, to which all other likelihoods are ratios.
+masses together are 1. The null track, "on no place of this drawing", is not moved; its likelihood is that of
+ranges in any building, and all other likelihoods are ratios to it.
 """
 
 import math
@@ -22,7 +22,7 @@ from pilotage.maps import Atlas
 BLOCK = 1.0
 """[m] Particles in neighboring blocks of this size belong to one track ..."""
 SECTORS = 12
-"""... if their headings lie in neighboring sectors, of so many, as well."""
+"""... if their headings lie in neighboring sectors as well; this is the number of sectors."""
 MIN_SHARE = 1e-5
 """Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
 MINOR_SHARE = 0.02
@@ -166,7 +166,7 @@ def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, N
 def _counts(
     shares: Array, labels: NDArray[np.intp], totals: Array, settings: TrackSettings
 ) -> NDArray[np.int64]:
-    """Say how many particles each track needs: so many for the area that it is spread over."""
+    """Say how many particles each track needs: a fixed number for each square metre that it is spread over."""
     members = labels >= 0
     inner = shares[members] / totals[labels[members]]
     positive = inner > 0.0
