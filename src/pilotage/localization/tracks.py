@@ -166,7 +166,7 @@ def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, N
 def _counts(
     shares: Array, labels: NDArray[np.intp], totals: Array, settings: TrackSettings
 ) -> NDArray[np.int64]:
-    """Say how many particles each track needs: a fixed number for each square metre that it is spread over."""
+    """Say how many particles each track needs: a number in proportion to its spread."""
     members = labels >= 0
     inner = shares[members] / totals[labels[members]]
     positive = inner > 0.0
