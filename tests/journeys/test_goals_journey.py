@@ -70,12 +70,23 @@ def test_a_robot_that_knows_that_its_drawing_does_not_fit_says_so_and_has_looked
     assert 0 == told.collisions
 
 
-@pytest.mark.slow
-def test_by_a_drawing_of_another_building_no_goal_is_reached_within_half_a_minute():
-    """A known limit: later it is claimed in four of five drives, as rooms of two buildings look alike."""
-    told = by_a_drawing_of_another_building(Localizer, 30.0)
+@pytest.fixture(scope="module")
+def lost_in_another_building():
+    return by_a_drawing_of_another_building(Localizer, 90.0)
 
-    assert Outcome.REACHED is not told.outcome
+
+@pytest.mark.slow
+def test_a_drawing_of_another_building_is_noticed_for_a_while(lost_in_another_building):
+    told = lost_in_another_building
+
     assert Status.MISMATCH in {step.estimate.status for step in told.steps}
     assert 5.0 < told.length
     assert 0 == told.collisions
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(
+    reason="rooms of two buildings look alike, and belief settles on one of them (decision 0024)"
+)
+def test_by_a_drawing_of_another_building_no_goal_is_ever_reached(lost_in_another_building):
+    assert Outcome.REACHED is not lost_in_another_building.outcome

@@ -22,26 +22,38 @@ QUICK = LocalizerSettings(
 )
 
 
-@needs_logs
-@pytest.mark.slow
-@pytest.mark.parametrize("building", ["freiburg-079", "fhw"])
-def test_a_robot_finds_its_room_on_a_quick_drawing(building):
+def right_at_end(building, hand, count, length, apart):
+    """Put a robot down `count` times, give it one scan in `apart`; count the times it ends in its room."""
     log = open_log(LOGS / f"{building}.log.gz")
     truth = read_trajectory(LOGS / f"{building}.truth.tum")
     stamps = np.array([reading.scan.stamp for reading in log])
     positions = truth.poses[associate(stamps, truth), :2]
     truths = read_world_rooms(SKETCHES / building / "rooms.geojson").names_at(positions)
-    drawn_rooms = read_drawn_rooms(SKETCHES / building / "quick.json")
-    atlas = build_atlas(open_map(SKETCHES / building / "quick.svg"), AtlasSettings())
+    drawn_rooms = read_drawn_rooms(SKETCHES / building / f"{hand}.json")
+    atlas = build_atlas(open_map(SKETCHES / building / f"{hand}.svg"), AtlasSettings())
 
     scores = []
-    for seed, episode in enumerate(spread_episodes(positions, 4, 30.0)):
-        chosen = slice(episode.first, episode.last + 1, 3)  # the logs are dense
+    for seed, episode in enumerate(spread_episodes(positions, count, length)):
+        chosen = slice(episode.first, episode.last + 1, apart)
         way = way_along(positions[chosen])
         localizer = Localizer(atlas, QUICK, seed=seed)
         scores.append(run_episode(localizer, log.readings[chosen], truths[chosen], way, drawn_rooms))
 
-    assert sum(score.right_at_end for score in scores) >= 3
+    return sum(score.right_at_end for score in scores)
+
+
+@needs_logs
+@pytest.mark.slow
+@pytest.mark.parametrize("building", ["freiburg-079", "fhw"])
+def test_a_robot_finds_its_room_on_a_quick_drawing(building):
+    assert right_at_end(building, "quick", count=4, length=30.0, apart=3) >= 3
+
+
+@needs_logs
+@pytest.mark.slow
+@pytest.mark.parametrize("building", ["belgioioso", "csail"])
+def test_a_robot_finds_its_room_on_a_careful_drawing(building):
+    assert right_at_end(building, "draftsman", count=3, length=40.0, apart=1) >= 2
 
 
 @pytest.fixture(scope="module")
