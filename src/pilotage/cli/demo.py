@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.drive import ANIMATION, FIGURE, JOURNAL, draw, drive_and_record, story
+from pilotage.cli.exits import signals_held
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
@@ -50,7 +51,7 @@ def demo(
     from pilotage.worlds import OFFICE
 
     sketch, building = open_map(OFFICE.quick), open_world(OFFICE.world)
-    with busy("Reading the drawing"):
+    with busy("Reading the drawing"), signals_held():
         navigator, simulator = set_out(sketch, building, GOAL, seed=seed, settings=chosen)
     driven = drive_and_record(building, navigator, simulator, output)
     recorded = replace(driven, true_goal=find_true_goal(driven, OFFICE))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
+from pilotage.cli.exits import signals_held
 from pilotage.cli.places import finite_numbers, parse_pose
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
@@ -98,7 +99,7 @@ def navigate(
     from pilotage.maps import NotEnclosedError
     from pilotage.simulation import StartError
 
-    with busy("Reading the drawing"):
+    with busy("Reading the drawing"), signals_held():
         try:
             navigator, simulator = set_out(
                 sketch,

@@ -45,7 +45,7 @@ def open_localizer(
         from pilotage.config import read_settings
 
         chosen = read_settings(settings).localizer
-    with busy("Reading the drawing"):
+    with busy("Reading the drawing"), signals_held():
         try:
             return Localizer(sketch, chosen, seed=seed, start=start, scale=scale)
         except ValueError as error:  # of the drawing: all else was checked before
