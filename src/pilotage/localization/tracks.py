@@ -8,7 +8,8 @@ ranges in any building, and all other likelihoods are ratios to it.
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import cached_property
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,8 @@ BLOCK = 1.0
 """[m] Particles in neighboring blocks of this size belong to one track ..."""
 SECTORS = 12
 """... if their headings lie in neighboring sectors as well; this is the number of sectors."""
+ROWS = 4_096
+"""Blocks to a column, of any drawing: what lies farther off shares the last ones."""
 MIN_SHARE = 1e-5
 """Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
 MINOR_SHARE = 0.02
@@ -81,7 +84,7 @@ class Tracks:
     tracks: tuple[Track, ...]
     log_null: float
 
-    @property
+    @cached_property
     def particles(self) -> Particles:
         """The particles of all tracks."""
         return join([track.particles for track in self.tracks])
@@ -130,10 +133,10 @@ def _block_keys(particles: Particles, atlas: Atlas) -> NDArray[np.int64]:
     """Return the number of the block of position and heading of each particle, (n,)."""
     size = BLOCK * math.exp(_mean_log_scale(particles))
     left, bottom = atlas.range_table.corner
-    column = np.clip(np.floor((particles.states[X] - left) / size) + 2, 0, 4000).astype(np.int64)
-    row = np.clip(np.floor((particles.states[Y] - bottom) / size) + 2, 0, 4000).astype(np.int64)
+    column = np.clip(np.floor((particles.states[X] - left) / size) + 2, 0, ROWS - 96).astype(np.int64)
+    row = np.clip(np.floor((particles.states[Y] - bottom) / size) + 2, 0, ROWS - 96).astype(np.int64)
     sector = np.floor(particles.states[HEADING] % math.tau / math.tau * SECTORS).astype(np.int64) % SECTORS
-    return np.asarray((column * 4096 + row) * SECTORS + sector)
+    return np.asarray((column * ROWS + row) * SECTORS + sector)
 
 
 def _mean_log_scale(particles: Particles) -> float:
@@ -145,19 +148,17 @@ def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, N
     """Label the connected components of the kept blocks, -1 for the others; `keys` (n,) are sorted."""
     labels = np.full(len(keys), -1, dtype=np.intp)
     chosen = keys[kept]
-    sectors, rows, columns = chosen % SECTORS, chosen // SECTORS % 4096, chosen // SECTORS // 4096
-    first, second = [], []
-    for i in (-1, 0, 1):
-        for j in (-1, 0, 1):
-            for k in (-1, 0, 1):
-                beside = ((columns + i) * 4096 + rows + j) * SECTORS + (sectors + k) % SECTORS
-                found = np.minimum(np.searchsorted(chosen, beside), len(chosen) - 1)
-                match = np.flatnonzero(chosen[found] == beside)
-                first.append(match)
-                second.append(found[match])
-    rows_, columns_ = np.concatenate(first), np.concatenate(second)
+    sectors, rows, columns = chosen % SECTORS, chosen // SECTORS % ROWS, chosen // SECTORS // ROWS
+    blocks, neighbors = [], []
+    for i, j, k in product((-1, 0, 1), repeat=3):
+        beside = ((columns + i) * ROWS + rows + j) * SECTORS + (sectors + k) % SECTORS
+        found = np.minimum(np.searchsorted(chosen, beside), len(chosen) - 1)
+        match = np.flatnonzero(chosen[found] == beside)
+        blocks.append(match)
+        neighbors.append(found[match])
+    pairs = np.concatenate(blocks), np.concatenate(neighbors)
     shape = (len(chosen), len(chosen))
-    graph = coo_matrix((np.ones(len(rows_), dtype=np.int8), (rows_, columns_)), shape=shape)
+    graph = coo_matrix((np.ones(len(pairs[0]), dtype=np.int8), pairs), shape=shape)
     count, components = connected_components(graph, directed=False)
     labels[kept] = components
     return int(count), labels
