@@ -188,9 +188,8 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "A robot that was sure of its place and right is carried more than 10 m away to another room,"
-                " unseen by its odometry, and travels 40 m from there. A robot that is not carried away"
-                " doubts its"
-                f" right place {figures['false_alarms']} times in {figures['unkidnapped_m']:.0f} m."
+                " unseen by its odometry, and travels 40 m from there. False alarms, right places that were"
+                f" doubted without a kidnap: {figures['false_alarms']} in {figures['unkidnapped_m']:.0f} m."
             ),
             "",
             table(
