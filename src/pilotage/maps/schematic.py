@@ -29,6 +29,12 @@ class SchematicMap:
     contours: bool = (
         False  # whether the strokes are closed contours of free space (filled plans), not of a pen
     )
+    solids: tuple[
+        Polyline, ...
+    ] = ()  # rings of what is solid, by the even-odd rule: walls that have a thickness
+    metres_per_unit: float | None = (
+        None  # what the file or its reader says of the scale: a prior, never believed
+    )
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""

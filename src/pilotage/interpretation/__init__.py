@@ -1,0 +1,22 @@
+"""What the marks on a drawing mean: walls, openings, furniture, words, or nothing.
+
+A reader of `io` turns a file of any format into a `Sheet`: what was painted, in order, with names and colors,
+and no opinion. `interpret` turns a sheet into a `SchematicMap`, and says for each mark what it was taken for
+and why.
+"""
+
+from pilotage.interpretation.interpret import Hints, Interpretation, Meaning, NoWallsError, interpret
+from pilotage.interpretation.sheet import Mark, Pen, Role, Sheet, Text
+
+__all__ = [
+    "Hints",
+    "Interpretation",
+    "Mark",
+    "Meaning",
+    "NoWallsError",
+    "Pen",
+    "Role",
+    "Sheet",
+    "Text",
+    "interpret",
+]
