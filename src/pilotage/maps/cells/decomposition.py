@@ -1,13 +1,17 @@
 """Divide a drawing into cells (Wolter 2001, section 4.1)."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.maps.cells.enclosure import drop_outdoors
-from pilotage.maps.cells.free_space import DecompositionSettings, free_space
+from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
+from pilotage.maps.cells.identity import identify
 from pilotage.maps.cells.merging import drop_small, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
@@ -16,8 +20,24 @@ SMALL, LARGE = 0.7, 1.4
 """A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
 
 
+@dataclass(frozen=True, eq=False)
+class Division:
+    """A drawing's free space, and the cells that it was divided into."""
+
+    space: FreeSpace
+    graph: CellGraph
+
+
 def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGraph:
     """Divide the free space of a drawing into cells, the largest first.
+
+    Raises NotEnclosedError if nothing is enclosed.
+    """
+    return divide(sketch, settings).graph
+
+
+def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
+    """Find the free space of a drawing and divide it into cells, the largest first.
 
     Free space is cut wherever clearance has a minimum along its Voronoi diagram, or begins to widen; the
     pieces are merged across all openings that do not separate them. Cells do not overlap; what they leave
@@ -28,10 +48,11 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
     regions = drop_outdoors(space, regions)
     regions = drop_small(space.tessellation, regions, settings.min_cell_area)
     numbers, polygons = outlines(space.tessellation, regions)
-    cells = name_cells(polygons, sketch.labels)
-    id_of = dict(zip(numbers, (cell.cell_id for cell in cells), strict=True))
-    points = np.vstack([stroke.vertices for stroke in sketch.strokes])
-    return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), diameter_of(points))
+    diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
+    words = words_in(polygons, sketch.labels)
+    ids = identify(polygons, words, diameter, y_down=sketch.y_down)
+    gateways = find_gateways(space.tessellation, regions, dict(zip(numbers, ids, strict=True)))
+    return Division(space, CellGraph(new_cells(polygons, ids, words), gateways, diameter))
 
 
 def outlines(
@@ -50,15 +71,15 @@ def largest_part(shape: shapely.Geometry) -> shapely.Polygon:
     return max(shapely.get_parts(shape), key=lambda part: float(part.area))
 
 
-def name_cells(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> tuple[Cell, ...]:
-    """Give each cell its id, size and label."""
+def new_cells(
+    polygons: Sequence[shapely.Polygon], ids: Sequence[str], words: Sequence[Sequence[str]]
+) -> tuple[Cell, ...]:
+    """Make cells of polygons, each with its id, size and label."""
     lengths = [float(polygon.exterior.length) for polygon in polygons]
     median = float(np.median(lengths)) if lengths else 0.0
-    digits = len(str(len(polygons)))
-    words = words_in(polygons, labels)
     return tuple(
         Cell(
-            f"c{number + 1:0{digits}}",
+            ids[number],
             vertices_of(polygon.exterior),
             size_of(lengths[number] / median),
             ", ".join(words[number]),
