@@ -62,7 +62,9 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     drawn = [number for number in open_to_guess if number not in paper.sheets]
     diagonal = diagonal_of(sheet, drawn)
     seen = look_at(sheet, drawn, paper.ground, diagonal)
-    guessed = {mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))}
+    guessed = {
+        mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))
+    }
     doors = find_doors(sheet, seen, diagonal)
     seen = without_doors(seen, doors)
     walls = find_walls(seen, sheet, guessed, doors, paper.ground, diagonal)
@@ -71,7 +73,9 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
     text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
     labels = tuple(
-        Label(text.text, text.position) for text, (role, _) in zip(sheet.texts, text_roles, strict=True) if role in (Role.LABEL, Role.WALL)
+        Label(text.text, text.position)
+        for text, (role, _) in zip(sheet.texts, text_roles, strict=True)
+        if role in (Role.LABEL, Role.WALL)
     )
     start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
     sketch = SchematicMap(

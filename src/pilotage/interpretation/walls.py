@@ -40,7 +40,12 @@ class Walls:
 
 
 def find_walls(
-    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role], doors: Sequence[Door], ground: Color, diagonal: float
+    seen: Sequence[Seen],
+    sheet: Sheet,
+    named: Mapping[int, Role],
+    doors: Sequence[Door],
+    ground: Color,
+    diagonal: float,
 ) -> Walls:
     """Find walls among what is seen once doors are taken out."""
     fills = [
@@ -61,7 +66,9 @@ def find_walls(
         filled = shapely.difference(filled_between(lines, solid, thickness), openings)
         filled = without_crumbs(filled, thickness)
         if are_walls(filled, lines, gap):
-            return Walls(filled, find_partitions(lines, filled, doors, width or gap), frozenset(colors), thickness)
+            return Walls(
+                filled, find_partitions(lines, filled, doors, width or gap), frozenset(colors), thickness
+            )
     if not solid.is_empty and are_walls(solid, lines, gap):
         return Walls(solid, find_partitions(lines, solid, doors, width or gap), frozenset(colors), thickness)
     return Walls(solid, None, frozenset(colors), thickness)

@@ -1,7 +1,7 @@
 """From the drawing to places (Wolter 2001, sections 2.2 and 4.1)."""
 
 from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
-from pilotage.maps.cells.decomposition import Division, decompose, divide
+from pilotage.maps.cells.decomposition import Division, NoDoorsError, decompose, divide
 from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, NotEnclosedError, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
@@ -21,6 +21,7 @@ __all__ = [
     "Gateway",
     "Label",
     "Neighbor",
+    "NoDoorsError",
     "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",

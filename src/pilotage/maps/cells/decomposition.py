@@ -9,7 +9,12 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.maps.cells.enclosure import drop_outdoors
-from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, free_space
+from pilotage.maps.cells.free_space import (
+    DecompositionSettings,
+    FreeSpace,
+    NotEnclosedError,
+    free_space,
+)
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.cells.identity import identify
 from pilotage.maps.cells.merging import drop_small, merge_pieces
@@ -18,6 +23,12 @@ from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
 SMALL, LARGE = 0.7, 1.4
 """A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
+
+NO_DOORS = "a drawing must show rooms with doors, this one has none: a door is a gap in a wall"
+
+
+class NoDoorsError(NotEnclosedError):
+    """A drawing encloses rooms, but none has a door."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +58,8 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     regions = merge_pieces(space.tessellation, space.inside, settings.min_cell_area)  # section 4.1: merging
     regions = drop_outdoors(space, regions)
     regions = drop_small(space.tessellation, regions, settings.min_cell_area)
+    if not (regions >= 0).any():
+        raise NoDoorsError(NO_DOORS)
     numbers, polygons = outlines(space.tessellation, regions)
     diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
     words = words_in(polygons, sketch.labels)
