@@ -54,6 +54,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
+        photo_from_sketch=sheet.photo_from_sheet,
     )
     meanings = tuple(Meaning(Role.WALL, "every stroke is a wall") for _ in sheet.marks)
     return Interpretation(sketch, sheet, meanings, tuple(Meaning(Role.LABEL, "") for _ in sheet.texts))
