@@ -1,7 +1,7 @@
 """Find free space in a drawing: what its walls enclose, small gaps closed (Wolter 2001, section 4.1)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import rustworkx
@@ -74,6 +74,8 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
     strokes = significant(sketch.strokes, BLOB * diameter)
     walls = simplify_all(strokes, Simplification(settings.detail * diameter))
     found = within_contours(walls) if sketch.contours else within_strokes(walls, diameter, settings)
+    if sketch.solids:
+        found = replace(found, inside=found.inside & ~within_solids(found.tessellation, sketch.solids))
     if not found.inside.any():
         raise NotEnclosedError(NOTHING)
     return found
@@ -103,6 +105,14 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     held, _ = shapely.STRtree(rings).query(points, predicate="within")
     inside = np.bincount(held, minlength=len(points)) % 2 == 1
     return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool))
+
+
+def within_solids(tessellation: Tessellation, solids: Sequence[Polyline]) -> NDArray[np.bool_]:
+    """Tell which pieces lie in walls that have a thickness, (p,): in an odd number of rings."""
+    rings = shapely.make_valid(np.array([shapely.Polygon(ring.vertices) for ring in solids if len(ring) > 2]))
+    points = shapely.point_on_surface(tessellation.pieces)
+    held, _ = shapely.STRtree(rings).query(points, predicate="within")
+    return np.asarray(np.bincount(held, minlength=len(points)) % 2 == 1)
 
 
 def within_strokes(
