@@ -87,6 +87,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
+        photo_from_sketch=sheet.photo_from_sheet,
     )
     meanings = tuple(Meaning(*(role or (Role.WALL, "a stroke"))) for role in told)
     return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))

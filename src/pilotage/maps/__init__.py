@@ -4,6 +4,7 @@ from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
 from pilotage.maps.cells.decomposition import Division, NoDoorsError, decompose, divide
 from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, NotEnclosedError, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway, Neighbor
+from pilotage.maps.file_axes import FileAxes
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.routing.places import check_place, check_reachable, find_labeled
 from pilotage.maps.routing.roadmap import Roadmap, Route, RouteError, RouteSettings, find_route
@@ -17,6 +18,7 @@ __all__ = [
     "CellSize",
     "DecompositionSettings",
     "Division",
+    "FileAxes",
     "FreeSpace",
     "Gateway",
     "Label",
