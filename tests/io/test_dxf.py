@@ -108,7 +108,7 @@ def test_hatches_are_areas_or_lines(document, tmp_path):
     lines.set_pattern_fill("ANSI31", scale=0.1)
     lines.paths.add_polyline_path([(0, 0), (4, 0), (4, 1), (0, 1)])
     dense = space.add_hatch(color=1)
-    dense.set_pattern_fill("ANSI31", scale=0.00001)
+    dense.set_pattern_fill("ANSI31", color=1, scale=0.00001)
     dense.paths.add_polyline_path([(0, 0), (4, 0), (4, 1), (0, 1)])
     area, strokes, full = read(document, tmp_path).marks
     assert area.fill == (1, 0, 0)
