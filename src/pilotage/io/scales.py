@@ -24,3 +24,13 @@ def find_scale(texts: Iterable[str]) -> float | None:
                 found[12.0 * (int(part) if part else 1) / int(whole)] += 1
     likely = [scale for scale, _ in found.most_common() if LEAST <= scale <= MOST]
     return likely[0] if likely else None
+
+
+def first_number(text: str) -> float | None:
+    """Return the number that a text begins with, if it is positive.
+
+    >>> first_number("0.9 m"), first_number("wide")
+    (0.9, None)
+    """
+    match = re.match(r"\s*(\d{1,9}(?:\.\d{1,9})?)", text)
+    return (float(match[1]) or None) if match else None
