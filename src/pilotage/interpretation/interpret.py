@@ -1,10 +1,19 @@
 """From a sheet to a drawing of a building: give each mark a role, and build walls and openings from them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from pilotage.interpretation.sheet import Role, Sheet
+import numpy as np
+
+from pilotage.geometry import Polyline
+from pilotage.interpretation.names import told_role
+from pilotage.interpretation.paper import area_of, bounds_of, find_paper
+from pilotage.interpretation.sheet import Mark, Role, Sheet
 from pilotage.maps import Label, SchematicMap
+
+
+GRAIN = 0.0005
+"""A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
 
 
 class NoWallsError(ValueError):
@@ -44,16 +53,58 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     Raises NoWallsError if nothing on the sheet can be a wall.
     """
     hints = hints or Hints()
-    strokes = tuple(outline for mark in sheet.marks for outline in mark.outlines)
+    told = [told_role(mark.names, hints.layers) for mark in sheet.marks]
+    open_to_guess = [number for number, role in enumerate(told) if role is None]
+    paper = find_paper(sheet, open_to_guess)
+    drawn = [number for number in open_to_guess if number not in paper.sheets]
+    strokes = tuple(stroke for number in drawn for stroke in strokes_of(sheet.marks[number], grain_of(sheet, drawn)))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    labels = tuple(Label(text.text, text.position) for text in sheet.texts)
+    text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
+    labels = tuple(
+        Label(text.text, text.position) for text, (role, _) in zip(sheet.texts, text_roles, strict=True) if role in (Role.LABEL, Role.WALL)
+    )
+    start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
     sketch = SchematicMap(
         strokes,
+        start=start,
+        goal=goal,
         labels=labels + hints.labels,
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
     )
-    meanings = tuple(Meaning(Role.WALL, "every stroke is a wall") for _ in sheet.marks)
-    return Interpretation(sketch, sheet, meanings, tuple(Meaning(Role.LABEL, "") for _ in sheet.texts))
+    meanings = tuple(Meaning(*(role or (Role.WALL, "a stroke"))) for role in told)
+    return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
+
+
+def grain_of(sheet: Sheet, drawn: Sequence[int]) -> float:
+    """Return the area below which a fill cannot be seen."""
+    if not drawn:
+        return 0.0
+    boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
+    return float((GRAIN * np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)))) ** 2)
+
+
+def strokes_of(mark: Mark, grain: float) -> Iterator[Polyline]:
+    """List the lines of a mark; one that has none is seen by the border of its area."""
+    for outline in mark.outlines:
+        if mark.pen is not None:
+            yield outline
+        elif area_of(outline) > grain:
+            yield Polyline(outline.vertices, closed=True)
+
+
+def marked(
+    role: Role,
+    sheet: Sheet,
+    told: Sequence[tuple[Role, str] | None],
+    text_roles: Sequence[tuple[Role, str]],
+) -> tuple[float, float] | None:
+    """Find the center of what marks a start or a goal: the first such mark, else the first text."""
+    for mark, found in zip(sheet.marks, told, strict=True):
+        if found is not None and found[0] is role:
+            left, bottom, right, top = bounds_of(mark)
+            return (left + right) / 2.0, (bottom + top) / 2.0
+    texts = zip(sheet.texts, text_roles, strict=True)
+    return next((text.position for text, (found, _) in texts if found is role), None)

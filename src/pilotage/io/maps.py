@@ -3,8 +3,10 @@
 import os
 from pathlib import Path
 
+from pilotage.errors import FileError
+from pilotage.interpretation import NoWallsError, interpret
 from pilotage.io.raster import SUFFIXES, read_map_server, read_raster
-from pilotage.io.svg import read_svg
+from pilotage.io.svg import read_svg_sheet
 from pilotage.maps import SchematicMap
 
 
@@ -19,4 +21,7 @@ def open_map(path: str | os.PathLike[str]) -> SchematicMap:
         return read_raster(file)
     if suffix in (".yaml", ".yml"):
         return read_map_server(file)
-    return read_svg(file)
+    try:
+        return interpret(read_svg_sheet(file)).sketch
+    except NoWallsError as error:
+        raise FileError(str(error), file) from error

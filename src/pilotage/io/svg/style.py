@@ -12,6 +12,7 @@ INITIAL: Mapping[str, str] = {
     "fill": "black",
     "stroke": "none",
     "stroke-width": "1",
+    "stroke-dasharray": "none",
     "stroke-opacity": "1",
     "fill-opacity": "1",
     "visibility": "visible",
