@@ -17,7 +17,7 @@ from pilotage.maps.cells.free_space import (
 )
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.cells.identity import identify
-from pilotage.maps.cells.merging import drop_small, merge_pieces
+from pilotage.maps.cells.merging import drop_small, join_thresholds, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
@@ -56,7 +56,9 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     """
     space = free_space(sketch, settings)
     regions = merge_pieces(space.tessellation, space.inside, settings.min_cell_area)  # section 4.1: merging
-    regions = drop_outdoors(space, regions)
+    if sketch.solids:
+        regions = join_thresholds(space.tessellation, regions)
+    regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, settings.min_cell_area)
     if not (regions >= 0).any():
         raise NoDoorsError(NO_DOORS)
