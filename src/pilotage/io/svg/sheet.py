@@ -102,7 +102,9 @@ def outlined_text(shape: Shape) -> Iterator[Text]:
     if words:
         left, top, right, bottom = shape.bounds
         middle = (left + right) / 2.0, -(top + bottom) / 2.0
-        yield Text(words, middle, bottom - top, 0.0, shape.drawn.names, shape.drawn.groups, f"outlines of {words!r}")
+        yield Text(
+            words, middle, bottom - top, 0.0, shape.drawn.names, shape.drawn.groups, f"outlines of {words!r}"
+        )
 
 
 def source_of(drawn: Drawn) -> str:
