@@ -174,8 +174,10 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
             line, area = mark.line, mark.area
             if place in door.marks:
                 track = shapely.LineString(door.arc.vertices)
-                track = shapely.buffer(track, 0.5 * SLACK * door.width, cap_style="square")
-                line, area = shapely.difference(line, track), shapely.difference(area, track)
+                narrow, wide = (
+                    shapely.buffer(track, share * door.width, cap_style="square") for share in (SLACK / 2.0, TWINS)
+                )
+                line, area = shapely.difference(line, narrow), shapely.difference(area, wide)
             line = without_leaf(line, door)
             area = shapely.difference(area, door.opening)
             whole = mark.whole and line.equals(mark.line)

@@ -7,16 +7,22 @@ import numpy as np
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
+from pilotage.interpretation.glyphs import find_glyphs
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
+from pilotage.interpretation.words import find_names
 from pilotage.maps import Label, SchematicMap
 
 
 GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
+
+
+NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""What a name makes one of these is no wall."""
 
 
 class NoWallsError(ValueError):
@@ -61,18 +67,21 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     paper = find_paper(sheet, open_to_guess)
     drawn = [number for number in open_to_guess if number not in paper.sheets]
     diagonal = diagonal_of(sheet, drawn)
+    glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
+    drawn = [number for place, number in enumerate(drawn) if place not in glyphs]
     seen = look_at(sheet, drawn, paper.ground, diagonal)
     guessed = {mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))}
     doors = find_doors(sheet, seen, diagonal)
     seen = without_doors(seen, doors)
+    seen = [mark for mark in seen if guessed.get(mark.number) not in NO_WALLS]
     walls = find_walls(seen, sheet, guessed, doors, paper.ground, diagonal)
     strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
     text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
-    labels = tuple(
-        Label(text.text, text.position) for text, (role, _) in zip(sheet.texts, text_roles, strict=True) if role in (Role.LABEL, Role.WALL)
-    )
+    spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
+    names = find_names([(number, sheet.texts[number]) for number in spoken])
+    labels = tuple(Label(name.words, name.position) for name in names)
     start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
     sketch = SchematicMap(
         strokes,

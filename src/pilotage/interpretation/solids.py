@@ -34,6 +34,9 @@ PAIRED = 0.5
 PARALLEL = np.radians(2.0)
 """Faces of a wall are parallel up to this."""
 
+PAINTED = 1.4
+"""The thickest painted walls are so many times as thick as the mean."""
+
 HAIR = 0.02
 """What is thinner than this share of the greatest thickness is a line, and no wall with a thickness."""
 
@@ -53,20 +56,27 @@ def lightness(color: Color) -> float:
 def dark_areas(areas: Sequence[tuple[shapely.Geometry, Color]], ground: Color, diagonal: float) -> set[Color]:
     """Find the colors in which walls are painted: long and thin, and unlike the ground."""
     lengths: dict[Color, float] = {}
-    by_color: dict[Color, list[shapely.Geometry]] = {}
-    for area, color in areas:
-        if abs(lightness(color) - lightness(ground)) >= CONTRAST:
-            by_color.setdefault(color, []).append(area)
-    for color, same in by_color.items():
-        parts = parts_of(shapely.union_all(same))
-        around = shapely.length(parts) / 2.0
-        thick = shapely.area(parts) / np.where(around > 0.0, around, 1.0)
-        walls = (thick < THICKEST * diagonal) & (around > SLENDER * thick)
-        lengths[color] = float(around[walls].sum())
+    for color in {color for _, color in areas if abs(lightness(color) - lightness(ground)) >= CONTRAST}:
+        same = shapely.union_all([area for area, other in areas if other == color])
+        length, thick = measured_walls(same)
+        lengths[color] = float(length[(thick < THICKEST * diagonal) & (length > SLENDER * thick)].sum())
     longest = max(lengths.values(), default=0.0)
     if longest < diagonal:
         return set()
     return {color for color, length in lengths.items() if length >= SECOND * longest}
+
+
+def measured_walls(solid: shapely.Geometry) -> tuple[Array, Array]:
+    """Measure how long and how thick the parts of solids are, each (n,), if they are long and thin."""
+    parts = parts_of(solid)
+    length = shapely.length(parts) / 2.0
+    return length, shapely.area(parts) / np.where(length > 0.0, length, 1.0)
+
+
+def painted_thickness(solid: shapely.Geometry) -> float:
+    """Tell how thick walls are painted, those that are thicker than most."""
+    length, thick = measured_walls(solid)
+    return PAINTED * float(np.average(thick, weights=length))
 
 
 def greatest_thickness(lines: shapely.Geometry, door_width: float | None, diagonal: float) -> float | None:
@@ -113,10 +123,10 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
 def filled_between(lines: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
     """Fill what lies between lines and solids no farther apart than a wall is thick (morphological closing)."""
     hair = HAIR * thickness
-    both = shapely.union(
-        shapely.buffer(lines, thickness / 2.0, cap_style="flat", join_style="mitre"),
-        shapely.buffer(solid, thickness / 2.0, join_style="mitre"),
-    )
+    pieces = shapely.linestrings(straight(lines))
+    bars = shapely.buffer(pieces, thickness / 2.0, cap_style="square")
+    grown = shapely.buffer(solid, thickness / 2.0, join_style="mitre")
+    both = shapely.union_all([*bars, grown])
     closed = shapely.buffer(both, hair - thickness / 2.0, join_style="mitre")
     opened = shapely.buffer(shapely.buffer(closed, -2.0 * hair, join_style="mitre"), hair, join_style="mitre")
     return shapely.simplify(shapely.union(opened, solid), hair)

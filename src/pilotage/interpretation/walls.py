@@ -16,6 +16,7 @@ from pilotage.interpretation.solids import (
     filled_between,
     greatest_thickness,
     lightness,
+    painted_thickness,
     without_crumbs,
 )
 
@@ -55,16 +56,26 @@ def find_walls(
     lines = shapely.union_all([mark.line for mark in seen if not mark.line.is_empty])
     width = float(np.median([door.width for door in doors])) if doors else None
     gap = USUAL_GAP * diagonal if width is None else GAP * width
-    thickness = greatest_thickness(lines, width, diagonal)
-    if thickness is not None:
-        openings = shapely.union_all([door.opening for door in doors])
-        filled = shapely.difference(filled_between(lines, solid, thickness), openings)
-        filled = without_crumbs(filled, thickness)
-        if are_walls(filled, lines, gap):
-            return Walls(filled, find_partitions(lines, filled, doors, width or gap), frozenset(colors), thickness)
-    if not solid.is_empty and are_walls(solid, lines, gap):
-        return Walls(solid, find_partitions(lines, solid, doors, width or gap), frozenset(colors), thickness)
-    return Walls(solid, None, frozenset(colors), thickness)
+    openings = shapely.union_all([door.opening for door in doors])
+    if not solid.is_empty:
+        thickness = painted_thickness(solid)
+        walls = shapely.difference(filled_between(lines, solid, thickness), openings)
+        walls = touching(walls, solid)
+        if are_walls(walls, lines, gap):
+            return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness)
+    faced = greatest_thickness(lines, width, diagonal)
+    if faced is not None:
+        walls = shapely.difference(filled_between(lines, solid, faced), openings)
+        walls = without_crumbs(walls, faced)
+        if are_walls(walls, lines, gap):
+            return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), faced)
+    return Walls(solid, None, frozenset(colors), None)
+
+
+def touching(filled: shapely.Geometry, solid: shapely.Geometry) -> shapely.Geometry:
+    """Keep what hangs together with solids: windows between walls, and no furniture."""
+    parts = parts_of(filled)
+    return shapely.union_all(parts[shapely.intersects(parts, solid)])
 
 
 def is_floor(color: Color, ground: Color) -> bool:

@@ -8,7 +8,7 @@ from pilotage.geometry import Array
 from pilotage.maps.cells.enclosure import drop_outdoors
 from pilotage.maps.cells.free_space import DecompositionSettings, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
-from pilotage.maps.cells.merging import drop_small, merge_pieces
+from pilotage.maps.cells.merging import drop_small, join_thresholds, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
@@ -25,7 +25,9 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
     """
     space = free_space(sketch, settings)
     regions = merge_pieces(space.tessellation, space.inside, settings.min_cell_area)  # section 4.1: merging
-    regions = drop_outdoors(space, regions)
+    if sketch.solids:
+        regions = join_thresholds(space.tessellation, regions)
+    regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, settings.min_cell_area)
     numbers, polygons = outlines(space.tessellation, regions)
     cells = name_cells(polygons, sketch.labels)
