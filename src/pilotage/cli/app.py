@@ -13,6 +13,7 @@ from pilotage.cli.navigate import navigate
 from pilotage.cli.perceive import perceive
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
+from pilotage.cli.table import table
 
 app = typer.Typer(
     name="pilotage",
@@ -51,3 +52,4 @@ app.command()(navigate)
 app.command()(perceive)
 app.command()(settings)
 app.command()(simplify)
+app.command()(table)

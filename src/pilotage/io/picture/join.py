@@ -4,7 +4,7 @@ import numpy as np
 
 from pilotage.geometry import Array
 
-REACH = 2.0
+REACH = 1.2
 """Ends up to so many widths of the pen apart may be one line."""
 
 STRAIGHT = np.deg2rad(25.0)

@@ -77,9 +77,11 @@ def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
     """Make a picture a size that is good to trace; returns how many pixels one of its pixels was."""
     height, width = colors.shape[:2]
     if height * width < FEW:
-        from scipy.ndimage import zoom
+        from PIL import Image
 
-        return 0.5, np.clip(zoom(colors, (2, 2, 1), order=1, grid_mode=True, mode="nearest"), 0.0, 1.0)
+        size = (2 * width, 2 * height)
+        channels = [Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC) for k in range(3)]
+        return 0.5, np.clip(np.dstack([np.asarray(channel) for channel in channels]), 0.0, 1.0)
     step = int(np.sqrt(height * width / ENOUGH))
     if step < 2:
         return 1.0, colors

@@ -14,11 +14,8 @@ WORD = 0.16
 CURLED = 1.5
 """The middle line of a letter is this many times as long as the letter is large; that of a stroke is not."""
 
-JOINED_UP = 2.7
-"""That of a joined-up word is so many times as long as the word, and longer than around a narrow box."""
-
-SOLID = 0.7
-"""Ink that fills this share of its box and is much wider than the pen is a column."""
+BOX = 0.93
+"""What fills its box by this share, holes and all, is a piece of a wall, and no joined-up word."""
 
 BESIDE = 0.8
 """Letters of a word stand within this many of their own sizes of each other."""
@@ -38,19 +35,20 @@ def find_words(ink: Mask, middle: Mask, pen_width: float) -> Mask:
     labels = label(ink, connectivity=2)
     islands = regionprops(labels)
     boxes = np.array([island.bbox for island in islands], dtype=np.float64)
-    areas = np.array([island.area for island in islands], dtype=np.float64)
+    filled = np.array([island.area_filled for island in islands], dtype=np.float64)
     lengths = np.bincount(labels[middle], minlength=len(islands) + 1)[1:]
     sides = boxes[:, 2:] - boxes[:, :2]
     size = sides.max(axis=1)
     curl = lengths / np.maximum(size - pen_width, 1.0)
-    column = (areas / sides.prod(axis=1) > SOLID) & (sides.min(axis=1) > 2.0 * pen_width)
-    small = (size <= LETTER * diagonal) & ~column
-    joined_up = (sides.min(axis=1) <= LETTER * diagonal) & (size <= WORD * diagonal) & (curl > JOINED_UP)
-    letters = (small & (curl > CURLED)) | (joined_up & (size > LETTER * diagonal))
+    small = size <= LETTER * diagonal
+    low = (sides.min(axis=1) <= LETTER * diagonal) & (size <= WORD * diagonal)
+    joined_up = low & ~small & (filled / sides.prod(axis=1) < BOX)
+    letters = (small | joined_up) & (curl > CURLED)
     lone = letters & small & (neighbors(boxes, letters) == 0)
     words = letters & ~lone
+    tiny = small & ((filled < BOX * sides.prod(axis=1)) | (sides.min(axis=1) < 2.0 * pen_width))
     for _ in range(2):  # strokes and dots beside letters, and those beside them, as in "ill"
-        words |= small & (neighbors(boxes, words) > 0)
+        words |= tiny & (neighbors(boxes, words) > 0)
     words |= size <= max(2.0 * pen_width, SPECK * diagonal)
     return np.asarray(np.concatenate([[False], words])[labels])
 

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
+from pilotage.io.picture.arcs import part_arcs, with_leaf
 from pilotage.io.picture.join import join_straight
-from pilotage.io.tracing import trace_lines
+from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
 
@@ -18,6 +19,15 @@ FAT = 2.2
 
 LEAST_FAT = 0.004
 """And wider than this share of the picture's diagonal: lines of two pens are lines."""
+
+RIM = 2
+"""Ink is blurred over so many pixels."""
+
+CORNER = 1.5
+"""The corner of an area is so many times as far from where a disk fits as its sides are."""
+
+DOORS = (0.01, 0.12)
+"""Doors are this wide, as shares of the picture's diagonal."""
 
 STAIR = 0.8
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
@@ -60,14 +70,24 @@ def trace(ink: Mask, flat: NDArray[np.float32], pen_width: float) -> tuple[list[
     width = max(FAT * pen_width, LEAST_FAT * float(np.hypot(*ink.shape)))
     dark = ink & (flat.max(axis=2) < DARK)
     fat_dark, fat_pale = fat_parts(dark, width), fat_parts(ink & ~dark, width)
-    thin = ((ink & ~fat_pale) | dark) & ~fat_dark
+    thin = ((ink & ~rimmed(fat_pale)) | dark) & ~rimmed(fat_dark)
     depth = distance_transform_edt(np.pad(thin, 1))[1:-1, 1:-1]
     lines = []
-    for points in join_straight(trace_lines(thin), pen_width):
+    for points in lines_of(thin, ink, pen_width):
         rows, columns = pixels_along(points, ink.shape)
         broad = float(max(1.0, 2.0 * np.median(depth[rows, columns]) - 0.5))
         lines.append(Line(points, broad, color_of(flat[rows, columns])))
     return [*areas_of(fat_pale, flat), *areas_of(fat_dark, flat)], lines
+
+
+def lines_of(thin: Mask, ink: Mask, pen_width: float) -> list[Array]:
+    """Trace thin ink: arcs of doors smooth, all other lines as long as they go on, (n, 2) each."""
+    runs, mean_width = trace_runs(thin)
+    radii = (DOORS[0] * float(np.hypot(*thin.shape)), DOORS[1] * float(np.hypot(*thin.shape)))
+    parts = [part_arcs(run, pen_width, radii) for run in runs]
+    others = straightened([run for rest, _ in parts for run in rest if len(run) > 1], mean_width)
+    arcs = [arc for _, found in parts for arc in found]
+    return [*join_straight(others, pen_width), *(line for arc in arcs for line in with_leaf(arc, ink).lines)]
 
 
 def pixels_along(points: Array, shape: tuple[int, ...]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -91,7 +111,14 @@ def fat_parts(ink: Mask, width: float) -> Mask:
     core = distance_transform_edt(np.pad(ink, 1))[1:-1, 1:-1] > width / 2.0
     if not core.any():
         return np.zeros_like(ink)
-    return np.asarray(ink & (distance_transform_edt(~core) <= width / 2.0 + 1.0))
+    return np.asarray(ink & (distance_transform_edt(~core) <= CORNER * width / 2.0 + 1.0))
+
+
+def rimmed(fat: Mask) -> Mask:
+    """Add the blurred rim of fat ink, which is no line beside it."""
+    from scipy.ndimage import binary_dilation
+
+    return np.asarray(binary_dilation(fat, np.ones((3, 3), dtype=bool), iterations=RIM))
 
 
 def areas_of(fat: Mask, flat: NDArray[np.float32]) -> list[Area]:
