@@ -10,28 +10,19 @@ from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
 from pilotage.io.picture.join import join_straight
+from pilotage.io.picture.width import fat_parts
 from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
 
-FAT = 2.2
-"""Ink wider than so many widths of the pen is an area."""
-
-LEAST_FAT = 0.004
-"""And wider than this share of the picture's diagonal: lines of two pens are lines."""
+DOORS = (0.01, 0.12)
+"""Doors are this wide, as shares of the picture's diagonal."""
 
 RIM = 2
 """Ink is blurred over so many pixels."""
 
-CORNER = 1.5
-"""The corner of an area is so many times as far from where a disk fits as its sides are."""
-
-DOORS = (0.01, 0.12)
-"""Doors are this wide, as shares of the picture's diagonal."""
-
 STAIR = 0.8
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
-
 
 DARK = 0.5
 """Ink with no color brighter than this share of paper is black, or a pen's blue: no floor."""
@@ -54,20 +45,15 @@ class Area:
     color: Color
 
 
-def pen_width_of(ink: Mask, middle: Mask) -> float:
-    """Measure the width of most strokes [pixels], given the ink and its middle lines."""
+def trace(
+    ink: Mask, flat: NDArray[np.float32], pen_width: float, width: float
+) -> tuple[list[Area], list[Line]]:
+    """Trace ink on flattened paper (height, width, 3), what is wider than a width [pixels] as areas.
+
+    Each color of fat ink is traced by itself.
+    """
     from scipy.ndimage import distance_transform_edt
 
-    if not middle.any():
-        return 1.0
-    return float(max(1.0, 2.0 * np.median(distance_transform_edt(ink)[middle]) - 0.5))
-
-
-def trace(ink: Mask, flat: NDArray[np.float32], pen_width: float) -> tuple[list[Area], list[Line]]:
-    """Trace ink on flattened paper (height, width, 3), each color of fat ink by itself."""
-    from scipy.ndimage import distance_transform_edt
-
-    width = max(FAT * pen_width, LEAST_FAT * float(np.hypot(*ink.shape)))
     dark = ink & (flat.max(axis=2) < DARK)
     fat_dark, fat_pale = fat_parts(dark, width), fat_parts(ink & ~dark, width)
     thin = ((ink & ~rimmed(fat_pale)) | dark) & ~rimmed(fat_dark)
@@ -102,16 +88,6 @@ def color_of(pixels: NDArray[np.float32]) -> Color:
     """Return the middle color of pixels (n, 3)."""
     red, green, blue = np.median(pixels, axis=0).astype(float).round(2).tolist()
     return red, green, blue
-
-
-def fat_parts(ink: Mask, width: float) -> Mask:
-    """Mark ink that a disk of this width [pixels] fits into, (height, width)."""
-    from scipy.ndimage import distance_transform_edt
-
-    core = distance_transform_edt(np.pad(ink, 1))[1:-1, 1:-1] > width / 2.0
-    if not core.any():
-        return np.zeros_like(ink)
-    return np.asarray(ink & (distance_transform_edt(~core) <= CORNER * width / 2.0 + 1.0))
 
 
 def rimmed(fat: Mask) -> Mask:
