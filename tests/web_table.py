@@ -7,11 +7,12 @@ from typing import Any
 
 from starlette.testclient import WebSocketTestSession
 
-TOKEN = "a-token-that-nobody-guesses"
+TOKEN = "a-token-that-nobody-guesses"  # noqa: S105  # of servers that live for a test
 LIVE = "ws://127.0.0.1:8765/api/live"
 
 FLAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="none" stroke="black">
-<path d="M10 10 H190 V110 H10 Z M10 60 H40 M55 60 H130 M145 60 H190 M100 10 V28 M100 43 V60 M100 60 V80 M100 95 V110"/>
+<path d="M10 10 H190 V110 H10 Z M10 60 H40 M55 60 H130 M145 60 H190"/>
+<path d="M100 10 V28 M100 43 V80 M100 95 V110"/>
 <text x="50" y="35">kitchen</text><text x="150" y="35">office</text>
 <text x="50" y="90">hall</text><text x="150" y="90">store</text>
 <circle class="goal" cx="30" cy="30" r="2"/></svg>

@@ -116,8 +116,9 @@ def width_of(opening: Array) -> float:
 
 
 def carried_cell(cell: Cell, proportions: Proportions) -> shapely.Polygon:
-    """Carry a cell to the world."""
-    return shapely.transform(cell.polygon, proportions.world_from_sketch).buffer(0.0)
+    """Carry a cell to the world; its outline runs counter-clockwise."""
+    carried = shapely.transform(cell.polygon, proportions.world_from_sketch)
+    return shapely.orient_polygons(shapely.make_valid(carried) if not carried.is_valid else carried)
 
 
 def furnish(
