@@ -16,7 +16,7 @@ from pilotage.cli.app import app
 from pilotage.errors import FileError
 from pilotage.web.serve import Address, ServerError, serve
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "drive_at_the_table.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "03_drive_at_the_table.py"
 
 
 @contextmanager
