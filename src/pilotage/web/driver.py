@@ -16,7 +16,7 @@ from pilotage.web.order import SPEEDS, Order, number, place, switch
 from pilotage.web.stage import Stage, set_stage
 from pilotage.web.words import name_of
 
-FRAME_EVERY = 1.0 / 12.0
+FRAME_EVERY = 1.0 / 20.0
 """Time [s] on the clock between frames, at least,"""
 RECORD_EVERY = 0.5
 """and time [s] of the drive, at most."""
