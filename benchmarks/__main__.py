@@ -31,6 +31,7 @@ NAMES = (
     "odometry",
     "segmentation",
     "cells",
+    "plans",
     "mpeg7",
     "shape",
     "simulation",

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from pilotage.cli.cells import cells
+from pilotage.cli.check import check
 from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
 from pilotage.cli.navigate import navigate
@@ -44,6 +45,7 @@ def common(
 
 
 app.command()(cells)
+app.command()(check)
 app.command()(demo)
 app.command()(localize)
 app.command()(navigate)
