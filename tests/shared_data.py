@@ -4,5 +4,7 @@ from pathlib import Path
 
 import pytest
 
-LOGS = Path(__file__).resolve().parents[1] / ".." / "shared" / "data" / "logs"
+DATA = Path(__file__).resolve().parents[1] / ".." / "shared" / "data"
+LOGS = DATA / "logs"
 needs_logs = pytest.mark.skipif(not LOGS.exists(), reason="the shared laser logs are not here")
+needs_bags = pytest.mark.skipif(not (DATA / "bags").exists(), reason="the shared bags are not here")

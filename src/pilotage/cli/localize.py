@@ -7,13 +7,23 @@ from typing import Annotated
 import typer
 
 from pilotage.cli.places import parse_pose
-from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
+from pilotage.cli.run import (
+    LOG_HELP,
+    OdometryTopic,
+    ScanTopic,
+    draw,
+    estimates_sink,
+    open_localizer,
+    read_stretch,
+    run,
+    summary,
+)
 from pilotage.cli.terminal import check_outputs, keeping, say
 
 
 def localize(
     drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help=LOG_HELP)],
     *,
     output: Annotated[
         Path | None,
@@ -38,6 +48,8 @@ def localize(
     scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    scan_topic: ScanTopic = None,
+    odometry_topic: OdometryTopic = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """Tell for every scan of a log where on the drawing the robot was.
@@ -60,7 +72,7 @@ def localize(
 
     sketch = open_map(drawing)
     known = None if start is None else parse_pose(start, "--start")
-    readings = read_stretch(log, first, last)
+    readings = read_stretch(log, first, last, scan_topic, odometry_topic)
     localizer = open_localizer(sketch, settings, seed, known, scale)
     with estimates_sink(output, sketch) as write:
         estimates = run(localizer, readings, write)
