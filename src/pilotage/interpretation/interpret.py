@@ -6,14 +6,23 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.names import told_role
+from pilotage.interpretation.doors import find_doors, without_doors
+from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
-from pilotage.interpretation.sheet import Mark, Role, Sheet
+from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
+from pilotage.interpretation.words import find_names
 from pilotage.maps import Label, SchematicMap
 
 
 GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
+
+
+NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""What a name makes one of these is no wall."""
 
 
 class NoWallsError(ValueError):
@@ -57,33 +66,63 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     open_to_guess = [number for number, role in enumerate(told) if role is None]
     paper = find_paper(sheet, open_to_guess)
     drawn = [number for number in open_to_guess if number not in paper.sheets]
-    strokes = tuple(stroke for number in drawn for stroke in strokes_of(sheet.marks[number], grain_of(sheet, drawn)))
+    diagonal = diagonal_of(sheet, drawn)
+    glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
+    drawn = [number for place, number in enumerate(drawn) if place not in glyphs]
+    seen = look_at(sheet, drawn, paper.ground, diagonal)
+    guessed = {
+        mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))
+    }
+    doors = find_doors(sheet, seen, diagonal)
+    seen = without_doors(seen, doors)
+    seen = [mark for mark in seen if guessed.get(mark.number) not in NO_WALLS]
+    walls = find_walls(seen, sheet, guessed, doors, paper.ground, diagonal)
+    strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
     text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
-    labels = tuple(
-        Label(text.text, text.position) for text, (role, _) in zip(sheet.texts, text_roles, strict=True) if role in (Role.LABEL, Role.WALL)
-    )
+    spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
+    names = find_names([(number, sheet.texts[number]) for number in spoken])
+    labels = tuple(Label(name.words, name.position) for name in names)
     start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
     sketch = SchematicMap(
         strokes,
         start=start,
         goal=goal,
         labels=labels + hints.labels,
+        solids=tuple(polyline for ring in rings_of(walls.solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
+        photo_from_sketch=sheet.photo_from_sheet,
     )
     meanings = tuple(Meaning(*(role or (Role.WALL, "a stroke"))) for role in told)
     return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
 
 
-def grain_of(sheet: Sheet, drawn: Sequence[int]) -> float:
-    """Return the area below which a fill cannot be seen."""
+def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:
+    """Measure the diagonal of some marks."""
     if not drawn:
         return 0.0
     boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
-    return float((GRAIN * np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)))) ** 2)
+    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+
+
+def wall_strokes(
+    sheet: Sheet, seen: Sequence[Seen], walls: Walls, ground: Color, grain: float
+) -> Iterator[Polyline]:
+    """List the strokes of all walls: as they were drawn where nothing was taken away from them."""
+    for ring in rings_of(walls.solid):
+        yield from polylines_of(ring)
+    if walls.lines is not None:
+        yield from polylines_of(walls.lines)
+        return
+    for mark in seen:
+        drawn = sheet.marks[mark.number]
+        if drawn.pen is not None:
+            yield from strokes_of(drawn, grain) if mark.whole else polylines_of(mark.line)
+        elif drawn.fill is not None and drawn.fill not in walls.colors and not is_floor(drawn.fill, ground):
+            yield from strokes_of(drawn, grain)
 
 
 def strokes_of(mark: Mark, grain: float) -> Iterator[Polyline]:

@@ -18,9 +18,6 @@ from pilotage.io.svg.tree import Drawn
 OPAQUE = 0.5
 """Paint that lets more than this through hides nothing."""
 
-OUTLINED = "aria-label"
-"""Where Inkscape keeps the words of a text that was turned into outlines."""
-
 
 def read_svg_sheet(path: Path) -> Sheet:
     """Read an SVG (or gzipped SVG) file in the units of its root's viewBox.
@@ -33,8 +30,7 @@ def read_svg_sheet(path: Path) -> Sheet:
         marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance))
         words = tuple(text for item in texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
-    outlined = tuple(text for shape in shapes for text in outlined_text(shape))
-    return Sheet(marks, words + outlined, bounds, y_down=True, source=str(path))
+    return Sheet(marks, words + tuple(outlined_texts(shapes)), bounds, y_down=True, source=str(path))
 
 
 def diagonal_of(shapes: Sequence[Shape]) -> float:
@@ -59,7 +55,7 @@ def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:
     if not outlines or (pen is None and fill is None):
         return
     names = drawn.names if stands(drawn) else (*drawn.names, "ignore")
-    if drawn.element.get(OUTLINED):
+    if drawn.outlined is not None:
         names = (*names, "text")
     yield Mark(outlines, pen, fill, names, drawn.groups, source_of(drawn))
 
@@ -96,13 +92,18 @@ def stands(item: Drawn) -> bool:
     return item.thing is not Thing.PERSON and not (item.thing is Thing.DOOR and opens)
 
 
-def outlined_text(shape: Shape) -> Iterator[Text]:
-    """Read the words that a text had before it was turned into outlines."""
-    words = shape.drawn.element.get(OUTLINED, "").strip()
-    if words:
-        left, top, right, bottom = shape.bounds
+def outlined_texts(shapes: Sequence[Shape]) -> Iterator[Text]:
+    """Read the words that texts had before they were turned into outlines."""
+    letters: dict[tuple[int, str], list[Shape]] = {}
+    for shape in shapes:
+        if shape.drawn.outlined is not None:
+            letters.setdefault(shape.drawn.outlined, []).append(shape)
+    for (_, words), group in letters.items():
+        boxes = np.array([shape.bounds for shape in group])
+        (left, top), (right, bottom) = boxes[:, :2].min(axis=0).tolist(), boxes[:, 2:].max(axis=0).tolist()
         middle = (left + right) / 2.0, -(top + bottom) / 2.0
-        yield Text(words, middle, bottom - top, 0.0, shape.drawn.names, shape.drawn.groups, f"outlines of {words!r}")
+        drawn = group[0].drawn
+        yield Text(words, middle, bottom - top, 0.0, drawn.names, drawn.groups, f"outlines of {words!r}")
 
 
 def source_of(drawn: Drawn) -> str:

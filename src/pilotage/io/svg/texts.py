@@ -91,7 +91,11 @@ def parts(element: Element) -> Iterator[tuple[Element | None, str]]:
 
 def starts_line(part: Element) -> bool:
     """Tell whether a part of a text stands on a line of its own."""
-    return bool(part.get("y")) or shift_of(part, 1.0) != 0.0 or "line" in (value for value in part.attrib.values())
+    return (
+        bool(part.get("y"))
+        or shift_of(part, 1.0) != 0.0
+        or "line" in (value for value in part.attrib.values())
+    )
 
 
 def shift_of(part: Element, size: float) -> float:
@@ -104,7 +108,9 @@ def shift_of(part: Element, size: float) -> float:
 def foreign_lines(item: Drawn) -> Iterator[Line]:
     """Read the lines of HTML inside a drawing, about the middle of their box."""
     element = item.element
-    x, y, width, height = (leading_number(item.measures.get(name) or "0", 0.0) for name in ("x", "y", "width", "height"))
+    x, y, width, height = (
+        leading_number(item.measures.get(name) or "0", 0.0) for name in ("x", "y", "width", "height")
+    )
     size = leading_number(item.style.values["font-size"], 16.0)
     left, top, wide, centered = x, y, width, True
     for part in element.iter():

@@ -31,6 +31,9 @@ LENGTH = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-zA-Z%]*)
 
 DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "foreignObject")
 LIST_END = re.compile(r"[\s,]")
+OUTLINED = "aria-label"
+"""Where Inkscape keeps the words of a text that was turned into outlines."""
+
 HOLDING = ("svg", "g", "a", "switch")
 MEASURES = {
     "x": 0, "y": 1, "width": 0, "height": 1, "cx": 0, "cy": 1, "r": 2, "rx": 0, "ry": 1,
@@ -76,6 +79,7 @@ class Drawn:
     notes: Mapping[str, str]  # the data-... attributes of the element and all that hold it
     names: tuple[str, ...] = ()  # of all that hold it and its own, the outermost first
     groups: tuple[int, ...] = ()  # numbers of the groups and uses that hold it, the outermost first
+    outlined: tuple[int, str] | None = None  # the text whose outlines it draws: its number, and its words
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +95,7 @@ class Place:
     notes: Mapping[str, str] = field(default_factory=dict)
     names: tuple[str, ...] = ()
     groups: tuple[int, ...] = ()
+    outlined: tuple[int, str] | None = None
 
 
 MAX_ELEMENTS = 100_000
@@ -143,6 +148,7 @@ def walk(root: Element) -> Iterator[Drawn]:
             notes={**place.notes, **noted(element)},
             names=place.names + tuple(names_of(element)),
             groups=place.groups if tag in DRAWN else (*place.groups, count),
+            outlined=(count, element.get(OUTLINED, "").strip()) if element.get(OUTLINED) else place.outlined,
         )
         if tag in DRAWN:
             measures = measured(declared, place.viewport)
@@ -156,6 +162,7 @@ def walk(root: Element) -> Iterator[Drawn]:
                 here.notes,
                 here.names,
                 here.groups,
+                here.outlined,
             )
         elif tag == "use":
             waiting.extend(used(here, by_id))
