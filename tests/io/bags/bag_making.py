@@ -3,6 +3,8 @@
 import math
 
 import numpy as np
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -82,3 +84,11 @@ def write_bag(path, messages, kind=".mcap"):
             )
             writer.write(connections[topic], round(recorded * 1e9), raw)
     return path
+
+
+def decoded(path, topic=None):
+    """Go through (topic, type, message) of an MCAP file by a reader that is not rosbags."""
+    with path.open("rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        for schema, channel, _, message in reader.iter_decoded_messages(topics=topic and [topic]):
+            yield channel.topic, schema.name, message
