@@ -34,6 +34,7 @@ NAMES = (
     "odometry",
     "segmentation",
     "cells",
+    "plans",
     "mpeg7",
     "shape",
     "simulation",

@@ -6,3 +6,12 @@ import pytest
 
 LOGS = Path(__file__).resolve().parents[1] / ".." / "shared" / "data" / "logs"
 needs_logs = pytest.mark.skipif(not LOGS.exists(), reason="the shared laser logs are not here")
+PLANS = LOGS.parent / "plans"
+VECTOR = LOGS.parent / "vector"
+needs_plans = pytest.mark.skipif(not PLANS.exists(), reason="the shared floor plans are not here")
+needs_vector = pytest.mark.skipif(not VECTOR.exists(), reason="the shared vector plans are not here")
+
+
+def plan(name: str) -> Path:
+    """Return the path of one of the floor plans by others."""
+    return PLANS / name

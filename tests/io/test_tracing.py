@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from pilotage.io.tracing import trace_lines
+from pilotage.io.tracing import straightened, trace_runs
 
 
 def inked(*polylines, size=100, width=3):
@@ -12,22 +12,26 @@ def inked(*polylines, size=100, width=3):
     return shapely.contains(ink, points).reshape(size, size)
 
 
+def traced(ink):
+    return straightened(*trace_runs(ink))
+
+
 def test_a_stroke_becomes_one_line_from_end_to_end():
-    (line,) = trace_lines(inked([(10, 10), (80, 10), (80, 70)]))
+    (line,) = traced(inked([(10, 10), (80, 10), (80, 70)]))
 
     assert len(line) <= 4
     assert pytest.approx(130.0, abs=5.0) == shapely.LineString(line).length
 
 
 def test_a_ring_becomes_one_closed_line():
-    (line,) = trace_lines(inked([(20, 20), (80, 20), (80, 80), (20, 80), (20, 20)]))
+    (line,) = traced(inked([(20, 20), (80, 20), (80, 80), (20, 80), (20, 20)]))
 
     assert line[0].tolist() == line[-1].tolist()
     assert pytest.approx(240.0, abs=8.0) == shapely.LineString(line).length
 
 
 def test_strokes_part_where_they_fork():
-    lines = trace_lines(inked([(10, 50), (90, 50)], [(50, 50), (50, 90)]))
+    lines = traced(inked([(10, 50), (90, 50)], [(50, 50), (50, 90)]))
 
     assert 3 == len(lines)
 
@@ -36,8 +40,8 @@ def test_a_ragged_edge_makes_no_strokes():
     ink = inked([(10, 50), (90, 50)], width=7)
     ink[46, 30] = ink[45, 30] = ink[53, 60] = True
 
-    assert 1 == len(trace_lines(ink))
+    assert 1 == len(traced(ink))
 
 
 def test_no_ink_is_no_stroke():
-    assert [] == trace_lines(np.zeros((10, 10), dtype=bool))
+    assert [] == traced(np.zeros((10, 10), dtype=bool))

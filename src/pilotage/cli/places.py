@@ -36,13 +36,9 @@ def point_or_label(words: str, sketch: "SchematicMap") -> "Point | str":
 
 def pose_on(sketch: "SchematicMap", words: str, option: str) -> "Pose2":
     """Read `X,Y,HEADING_DEG` in the axes of the drawing's file as a pose of the sketch."""
-    import numpy as np
-
     from pilotage.geometry import Pose2
 
-    x, y, theta = parse_pose(words, option)
-    position = sketch.sketch_from_file(np.array([[x, y]]))[0]
-    return Pose2(float(position[0]), float(position[1]), theta)
+    return sketch.file_axes.pose_to_sketch(Pose2(*parse_pose(words, option)))
 
 
 def parse_pose(words: str, option: str) -> tuple[float, float, float]:

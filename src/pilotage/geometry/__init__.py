@@ -3,6 +3,7 @@
 from pilotage.geometry.affine import Affine2
 from pilotage.geometry.angles import wrap_angle
 from pilotage.geometry.arrays import Array, frozen_array, frozen_points
+from pilotage.geometry.homography import Homography
 from pilotage.geometry.polyline import Polyline, segments_of
 from pilotage.geometry.pose import Pose2
 from pilotage.geometry.similarity import Similarity2
@@ -13,6 +14,7 @@ from pilotage.geometry.twist import Twist
 __all__ = [
     "Affine2",
     "Array",
+    "Homography",
     "Polyline",
     "Pose2",
     "Similarity2",

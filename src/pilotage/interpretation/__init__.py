@@ -6,9 +6,14 @@ and why.
 """
 
 from pilotage.interpretation.interpret import Hints, Interpretation, Meaning, NoWallsError, interpret
-from pilotage.interpretation.sheet import Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation.names import role_named, words_of
+from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Pen, Role, Sheet, Text
 
 __all__ = [
+    "BLACK",
+    "WHITE",
+    "Bounds",
+    "Color",
     "Hints",
     "Interpretation",
     "Mark",
@@ -19,4 +24,6 @@ __all__ = [
     "Sheet",
     "Text",
     "interpret",
+    "role_named",
+    "words_of",
 ]

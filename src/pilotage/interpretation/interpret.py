@@ -1,10 +1,28 @@
 """From a sheet to a drawing of a building: give each mark a role, and build walls and openings from them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from pilotage.interpretation.sheet import Role, Sheet
+import numpy as np
+
+from pilotage.geometry import Polyline
+from pilotage.interpretation.doors import find_doors, without_doors
+from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.paint import Seen, look_at, polylines_of
+from pilotage.interpretation.paper import area_of, bounds_of, find_paper
+from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
+from pilotage.interpretation.words import find_names
 from pilotage.maps import Label, SchematicMap
+
+
+GRAIN = 0.0005
+"""A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
+
+
+NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""What a name makes one of these is no wall."""
 
 
 class NoWallsError(ValueError):
@@ -44,16 +62,88 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     Raises NoWallsError if nothing on the sheet can be a wall.
     """
     hints = hints or Hints()
-    strokes = tuple(outline for mark in sheet.marks for outline in mark.outlines)
+    told = [told_role(mark.names, hints.layers) for mark in sheet.marks]
+    open_to_guess = [number for number, role in enumerate(told) if role is None]
+    paper = find_paper(sheet, open_to_guess)
+    drawn = [number for number in open_to_guess if number not in paper.sheets]
+    diagonal = diagonal_of(sheet, drawn)
+    glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
+    drawn = [number for place, number in enumerate(drawn) if place not in glyphs]
+    seen = look_at(sheet, drawn, paper.ground, diagonal)
+    guessed = {
+        mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))
+    }
+    doors = find_doors(sheet, seen, diagonal)
+    seen = without_doors(seen, doors)
+    seen = [mark for mark in seen if guessed.get(mark.number) not in NO_WALLS]
+    walls = find_walls(seen, sheet, guessed, doors, paper.ground, diagonal)
+    strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    labels = tuple(Label(text.text, text.position) for text in sheet.texts)
+    text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
+    spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
+    names = find_names([(number, sheet.texts[number]) for number in spoken])
+    labels = tuple(Label(name.words, name.position) for name in names)
+    start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
     sketch = SchematicMap(
         strokes,
+        start=start,
+        goal=goal,
         labels=labels + hints.labels,
+        solids=tuple(polyline for ring in rings_of(walls.solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
+        photo_from_sketch=sheet.photo_from_sheet,
     )
-    meanings = tuple(Meaning(Role.WALL, "every stroke is a wall") for _ in sheet.marks)
-    return Interpretation(sketch, sheet, meanings, tuple(Meaning(Role.LABEL, "") for _ in sheet.texts))
+    meanings = tuple(Meaning(*(role or (Role.WALL, "a stroke"))) for role in told)
+    return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
+
+
+def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:
+    """Measure the diagonal of some marks."""
+    if not drawn:
+        return 0.0
+    boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
+    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+
+
+def wall_strokes(
+    sheet: Sheet, seen: Sequence[Seen], walls: Walls, ground: Color, grain: float
+) -> Iterator[Polyline]:
+    """List the strokes of all walls: as they were drawn where nothing was taken away from them."""
+    for ring in rings_of(walls.solid):
+        yield from polylines_of(ring)
+    if walls.lines is not None:
+        yield from polylines_of(walls.lines)
+        return
+    for mark in seen:
+        drawn = sheet.marks[mark.number]
+        if drawn.pen is not None:
+            yield from strokes_of(drawn, grain) if mark.whole else polylines_of(mark.line)
+        elif drawn.fill is not None and drawn.fill not in walls.colors and not is_floor(drawn.fill, ground):
+            yield from strokes_of(drawn, grain)
+
+
+def strokes_of(mark: Mark, grain: float) -> Iterator[Polyline]:
+    """List the lines of a mark; one that has none is seen by the border of its area."""
+    for outline in mark.outlines:
+        if mark.pen is not None:
+            yield outline
+        elif area_of(outline) > grain:
+            yield Polyline(outline.vertices, closed=True)
+
+
+def marked(
+    role: Role,
+    sheet: Sheet,
+    told: Sequence[tuple[Role, str] | None],
+    text_roles: Sequence[tuple[Role, str]],
+) -> tuple[float, float] | None:
+    """Find the center of what marks a start or a goal: the first such mark, else the first text."""
+    for mark, found in zip(sheet.marks, told, strict=True):
+        if found is not None and found[0] is role:
+            left, bottom, right, top = bounds_of(mark)
+            return (left + right) / 2.0, (bottom + top) / 2.0
+    texts = zip(sheet.texts, text_roles, strict=True)
+    return next((text.position for text, (found, _) in texts if found is role), None)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum
 
-from pilotage.geometry import Polyline
+from pilotage.geometry import Homography, Polyline
 
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
@@ -77,4 +77,5 @@ class Sheet:
     metres_per_unit: float | None = None  # what the file claims; a prior on scale, never believed
     y_down: bool = False  # whether the y axis of the source file points down
     source: str = ""  # path of the file
+    photo_from_sheet: Homography | None = None  # to the photo that was straightened, y up in both
     left_out: tuple[str, ...] = ()  # what the reader could not read, in words: "2 embedded pictures"

@@ -6,8 +6,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
 
-import numpy as np
-
 from pilotage.geometry import Affine2
 from pilotage.io.files import replacing
 from pilotage.localization import Estimate
@@ -44,11 +42,10 @@ def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, objec
 
 def place_record(sketch_from_base: Affine2, sketch: SchematicMap) -> dict[str, float]:
     """Return a place and a scale in the axes of the drawing's file."""
-    pose = sketch_from_base.pose
-    x, y = sketch.file_from_sketch(np.array([pose.position]))[0]
+    pose = sketch.file_axes.pose_from_sketch(sketch_from_base.pose)
     return {
-        "x": rounded(float(x)),
-        "y": rounded(float(y)),
+        "x": rounded(pose.x),
+        "y": rounded(pose.y),
         "heading": rounded(pose.theta),
         "scale": rounded(sketch_from_base.scale),
     }

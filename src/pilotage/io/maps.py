@@ -1,22 +1,96 @@
 """Open a drawing of any kind that can be read."""
 
 import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pilotage.io.raster import SUFFIXES, read_map_server, read_raster
-from pilotage.io.svg import read_svg
-from pilotage.maps import SchematicMap
+import numpy as np
+
+from pilotage.errors import FileError
+from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, interpret
+from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
+from pilotage.io.raster import SUFFIXES, PictureKind, read_map_server, read_raster
+from pilotage.io.svg import read_svg_sheet
+from pilotage.maps import Label, SchematicMap
+
+KINDS = {shading: PictureKind[shading.name] for shading in Shading}
 
 
-def open_map(path: str | os.PathLike[str]) -> SchematicMap:
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """A drawing that was opened, and how its marks were understood."""
+
+    sketch: SchematicMap
+    interpretation: Interpretation | None = None  # None: a picture that was read by its free space
+    remarks: tuple[str, ...] = ()  # what was assumed, in words
+
+
+def open_map(
+    path: str | os.PathLike[str],
+    *,
+    layers: Mapping[str, str] | None = None,
+    labels: Mapping[str, Sequence[float]] | None = None,
+    page: str | int | None = None,
+    shading: str = "recognized",
+) -> SchematicMap:
     """Read a drawing: SVG (also gzipped), a picture (PNG, PGM, JPEG, ...) or a ROS map_server YAML file.
 
-    Raises FileError if the file is missing, of another kind, or shows no stroke.
+    The rest is for where guessing fails, and wins over the table beside the file (`office.svg.toml`):
+    `layers` tells what the marks of a layer, class, id or block are, as in `{"A-FURN": "ignore"}`; `labels`
+    names rooms at points in the file's own axes; `page` is one of several; `shading` is of a picture.
+
+    Raises FileError if the file is missing, of another kind, or shows no stroke, ValueError if a hint is
+    invalid.
     """
-    file = Path(path)
+    hints = DrawingHints(
+        {name: role_of(name, role) for name, role in (layers or {}).items()},
+        tuple((name, (float(x), float(y))) for name, (x, y) in (labels or {}).items()),
+        None if page is None else str(page),
+        shading_of(shading),
+    )
+    return open_drawing(Path(path), hints).sketch
+
+
+def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
+    """Read a drawing with what a person says about it, here and in the table beside the file."""
+    hints, remarks = hints or DrawingHints(), []
+    table = table_beside(file)
+    if table.is_file():
+        hints = hints.over(read_hints(table))
+        remarks.append(f"hints are taken from {table.name}")
+    sketch, interpretation = read_drawing(file, hints)
+    if interpretation is not None:
+        remarks += [*interpretation.assumptions, *unknown_layers(interpretation, hints.layers)]
+    elif hints.layers:
+        remarks.append("a picture has no layers")
+    labels = tuple(
+        Label(name, (float(x), float(y)))
+        for name, point in hints.labels
+        for x, y in sketch.sketch_from_file(np.array([point], dtype=np.float64))
+    )
+    return Drawing(replace(sketch, labels=labels + sketch.labels), interpretation, tuple(remarks))
+
+
+def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation | None]:
+    """Read a drawing by the reader of its kind, and understand its marks if it has any."""
     suffix = file.suffix.lower()
     if suffix in SUFFIXES:
-        return read_raster(file)
+        return read_raster(file, KINDS[hints.shading]), None
+    if hints.shading is not Shading.RECOGNIZED:
+        raise FileError(f"only pictures have a shading, {hints.shading.value} is asked for", file)
     if suffix in (".yaml", ".yml"):
-        return read_map_server(file)
-    return read_svg(file)
+        return read_map_server(file), None
+    try:
+        interpretation = interpret(read_svg_sheet(file), Hints(hints.layers))
+    except NoWallsError as error:
+        raise FileError(str(error), file) from error
+    return interpretation.sketch, interpretation
+
+
+def unknown_layers(interpretation: Interpretation, layers: Mapping[str, Role]) -> list[str]:
+    """Tell which of the layers that a person named are nowhere in the drawing."""
+    sheet = interpretation.sheet
+    named = [mark.names for mark in sheet.marks] + [text.names for text in sheet.texts]
+    known = {name for names in named for name in names}
+    return [f"nothing in the drawing is named {name!r}" for name in layers if name not in known]

@@ -2,12 +2,13 @@
 
 How the kind is recognized, and nowhere else (`recognize`): by what touches the edge of the picture.
 
+- No color fills the edge: a photo or a scan of a line drawing (`LINES`).
 - The edge is gray and a good part of the picture is lighter: a plan as robots draw it. What is light is free.
 - Otherwise what differs from the edge is ink. Thin ink is the strokes of a pen of any color (`LINES`).
 - Fat ink is free space itself: light on a dark ground (`LIGHT_IS_FREE`) or dark on light (`DARK_IS_FREE`).
 
-Name a `PictureKind` to override it. A picture is read in pixels from its upper left corner, y up and so below
-0; a resolution that a file claims is never believed, for drawings have none.
+`io/picture` reads line drawings. Name a `PictureKind` to override what is recognized. A picture is read in
+pixels from its upper left corner, y up and so below 0; a resolution that a file claims is never believed.
 """
 
 from dataclasses import dataclass
@@ -20,9 +21,9 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.errors import FileError
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Polyline
+from pilotage.interpretation import NoWallsError, interpret
 from pilotage.io.files import check_regular
-from pilotage.io.tracing import trace_lines
 from pilotage.maps import SchematicMap
 
 Mask = NDArray[np.bool_]
@@ -42,15 +43,6 @@ FLOOR_SHARE = 0.03
 
 PEN_WIDTH = 0.012
 """Ink of less mean width than this share of the picture's diagonal is a pen's: 12 pixels of 1000."""
-
-PAPER_SCALE = 0.03
-"""How far light may change across paper, as a share of the diagonal: wider than any pen."""
-
-COARSE_SIGMA = 4.0
-"""Light on paper is smoothed over this many pixels of a picture made as small as that allows."""
-
-LEAST_CONTRAST = 0.1
-"""Ink differs from paper by at least this share of full contrast."""
 
 STAIR = 1.0
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
@@ -78,10 +70,10 @@ class PictureKind(Enum):
 class Picture:
     """Colors of a picture from 0 to 1, what is transparent in the color of its edge."""
 
-    colors: Array  # (height, width, 3)
+    colors: NDArray[np.float32]  # (height, width, 3)
 
     @property
-    def shades(self) -> Array:
+    def shades(self) -> NDArray[np.float32]:
         """Gray of each pixel, stretched from 0 (darkest) to 1 (lightest), (height, width)."""
         gray = self.colors.mean(axis=2)
         low, high = gray.min(), gray.max()
@@ -99,11 +91,16 @@ def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> Schem
 
     Raises FileError if it cannot be read or shows neither walls nor free space.
     """
+    from pilotage.io.picture import sheet_of
+
     picture = read_picture(path)
     if kind is PictureKind.RECOGNIZED:
         kind = recognize(picture)
     if kind is PictureKind.LINES:
-        return from_lines(find_ink(picture), path)
+        try:
+            return interpret(sheet_of(picture.colors, source=str(path))).sketch
+        except NoWallsError as error:
+            raise FileError("a line drawing must show at least one stroke, found none", path) from error
     light = picture.shades >= LIGHT
     return from_free_space(
         light if kind is PictureKind.LIGHT_IS_FREE else picture.shades < 1.0 - LIGHT + DARK, path
@@ -113,6 +110,7 @@ def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> Schem
 def read_picture(path: Path) -> Picture:
     """Read the colors of a picture."""
     from PIL import Image, UnidentifiedImageError
+    from PIL.ImageOps import exif_transpose as upright
 
     check_regular(path)
     try:
@@ -123,25 +121,32 @@ def read_picture(path: Path) -> Picture:
                     f" got {image.width} x {image.height}",
                     path,
                 )
-            rgba = np.asarray(image.convert("RGBA"), dtype=np.float64)
+            rgba = np.asarray(upright(image).convert("RGBA"))
     except FileNotFoundError as error:
         raise FileError("there is no such file", path) from error
     except (OSError, UnidentifiedImageError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise FileError(f"a picture cannot be read ({error})", path) from error
     seen = rgba[..., 3] >= OPAQUE
-    colors = rgba[..., :3] / 255.0
+    colors = np.asarray(rgba[..., :3] / np.float32(255.0), dtype=np.float32)
     edge = edge_of(seen)
-    ground = np.median(edge_of(colors)[edge], axis=0) if edge.any() else np.ones(3)
-    return Picture(np.where(seen[..., None], colors, ground))
+    if not seen.all():
+        colors[~seen] = np.median(edge_of(colors)[edge], axis=0) if edge.any() else 1.0
+    return Picture(colors)
 
 
 def edge_of(pixels: NDArray[Scalar]) -> NDArray[Scalar]:
-    """List the pixels of the first and last row and column."""
-    return np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+    """List the pixels along the edge, a hundredth of the shorter side deep; those of the corners twice."""
+    depth = max(1, min(pixels.shape[:2]) // 100)
+    strips = (pixels[:depth], pixels[-depth:], pixels[:, :depth], pixels[:, -depth:])
+    return np.concatenate([strip.reshape(-1, *pixels.shape[2:]) for strip in strips])
 
 
 def recognize(picture: Picture) -> PictureKind:
     """Tell what a picture means by its shades; the rules stand at the head of this module."""
+    from pilotage.io.picture.photo import is_photo
+
+    if is_photo(picture.colors):
+        return PictureKind.LINES
     shades = picture.shades
     ground = float(np.median(edge_of(shades)))
     if DARK < ground < LIGHT and np.mean(shades >= LIGHT) >= FLOOR_SHARE:
@@ -157,29 +162,6 @@ def mean_width(ink: Mask) -> float:
     padded = np.pad(ink, 1)
     outline = np.count_nonzero(padded[1:] != padded[:-1]) + np.count_nonzero(padded[:, 1:] != padded[:, :-1])
     return 2.0 * float(np.count_nonzero(ink)) / max(float(outline), 1.0)
-
-
-def find_ink(picture: Picture) -> Mask:
-    """Find the strokes of a pen of any color on paper of any color, lit unevenly."""
-    from skimage.filters import gaussian, threshold_otsu
-
-    sigma = PAPER_SCALE * picture.diagonal
-    step = max(1, int(sigma / COARSE_SIGMA))
-    coarse = gaussian(picture.colors[::step, ::step], sigma=sigma / step, channel_axis=2, mode="nearest")
-    height, width = picture.colors.shape[:2]
-    paper = coarse.repeat(step, axis=0)[:height].repeat(step, axis=1)[:, :width]
-    contrast = np.abs(picture.colors - paper).max(axis=2)
-    if contrast.max() <= LEAST_CONTRAST:
-        return np.zeros(contrast.shape, dtype=bool)
-    return np.asarray(contrast > max(LEAST_CONTRAST, float(threshold_otsu(contrast))))
-
-
-def from_lines(ink: Mask, path: Path) -> SchematicMap:
-    """Trace the middle of strokes."""
-    strokes = tuple(Polyline(line * (1.0, -1.0)) for line in trace_lines(ink))
-    if not strokes:
-        raise FileError("a line drawing must show at least one stroke, found none", path)
-    return SchematicMap(strokes, source=str(path), y_down=True)
 
 
 def from_free_space(free: Mask, path: Path) -> SchematicMap:

@@ -19,19 +19,29 @@ NEIGHBORS = ((0, 1), (1, 0), (1, 1), (1, -1))
 """Half of the eight neighbors of a pixel, as row and column."""
 
 
-def trace_lines(ink: Mask) -> list[Array]:
-    """Thin ink to its middle and follow it: polylines (n, 2) of x and y [pixels], y down, in order."""
+def trace_runs(ink: Mask) -> tuple[list[Array], float]:
+    """Thin ink to its middle and follow it from fork to fork.
+
+    Returns the pixels of each run (n, 2) as x and y, y down, and the mean width of the pen [pixels].
+    """
     from skimage.morphology import skeletonize
 
     middle = skeletonize(ink)
     if not middle.any():
-        return []
+        return [], 1.0
     pen_width = float(np.count_nonzero(ink)) / float(np.count_nonzero(middle))
     rows, columns = np.nonzero(middle)
     points = np.column_stack([columns + 0.5, rows + 0.5])
     graph = neighbor_graph(middle)
     remove_spurs(graph, SPUR * pen_width)
-    lines = [shapely.LineString(points[run]) for run in follow(graph)]
+    return [points[run] for run in follow(graph)], pen_width
+
+
+def straightened(runs: list[Array], pen_width: float) -> list[Array]:
+    """Draw runs of pixels with as few vertices as the width of the pen allows, (n, 2) each."""
+    if not runs:
+        return []
+    lines = [shapely.LineString(run) for run in runs]
     straight = shapely.simplify(lines, max(STRAIGHTNESS * pen_width, 0.5))
     return [np.asarray(shapely.get_coordinates(line)) for line in straight]
 

@@ -1,7 +1,7 @@
 """What the localizer says: where the robot is on the drawing, how probable that is, and whether it fits."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from pilotage.geometry import Affine2, Array, Pose2
 from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state, weighted_sum
 from pilotage.localization.tracks import Tracks
-from pilotage.maps import Atlas
+from pilotage.maps import Atlas, FileAxes
 
 RADIUS = 2.0
 """[m] Particles within this distance of the densest point are one hypothesis."""
@@ -75,7 +75,7 @@ class Estimate:
     y: float  # [drawing units]
     heading: float  # [rad] counter-clockwise on the page from its x axis
     scale: float  # [drawing units per metre]
-    y_down: bool = False  # whether the y axis of the file points down
+    file_axes: FileAxes = field(default_factory=FileAxes)  # of the drawing
 
     @property
     def probability(self) -> float:
@@ -105,14 +105,14 @@ class Estimate:
     def moved(self, motion: Pose2, atlas: Atlas | None = None) -> "Estimate":
         """Carry the estimate along by a motion in the robot's frame; an atlas names the cell there."""
         hypotheses = tuple(one.moved(motion, atlas) for one in self.hypotheses)
-        pose = hypotheses[0].sketch_from_base.pose
+        pose = self.file_axes.pose_from_sketch(hypotheses[0].sketch_from_base.pose)
         place = self.place if atlas is None else atlas.place_name(hypotheses[0].cell_id)
         return replace(
             self,
             hypotheses=hypotheses,
             place=place,
             x=pose.x,
-            y=-pose.y if self.y_down else pose.y,
+            y=pose.y,
             heading=pose.theta,
         )
 
@@ -125,7 +125,7 @@ def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: At
     particles, null = tracks.particles, math.exp(tracks.log_null)
     hypotheses = calibrated(find_hypotheses(particles, atlas))
     first = hypotheses[0]
-    pose = first.sketch_from_base.pose
+    pose = atlas.sketch.file_axes.pose_from_sketch(first.sketch_from_base.pose)
     inside = atlas.are_in((first.cell_id,), particles.states[:2].T) if first.cell_id else np.zeros(0, bool)
     in_cell = math.exp(particles.log_mass) * float(particles.shares[inside].sum()) if inside.any() else 0.0
     status = Status.LOCATED if first.probability >= MORE_PROBABLE_THAN_NOT else Status.LOST
@@ -139,10 +139,10 @@ def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: At
         fit=fit,
         place=atlas.place_name(first.cell_id),
         x=pose.x,
-        y=-pose.y if atlas.sketch.y_down else pose.y,
+        y=pose.y,
         heading=pose.theta,
         scale=first.sketch_from_base.scale,
-        y_down=atlas.sketch.y_down,
+        file_axes=atlas.sketch.file_axes,
     )
 
 

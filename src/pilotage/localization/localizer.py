@@ -202,8 +202,8 @@ class Localizer:
         if start is None:
             states = draw_anywhere(self.atlas, self._prior, settings.first_count, self._rng)
         else:
-            x, y = self.atlas.sketch.sketch_from_file(np.array([start[:2]], dtype=np.float64))[0].tolist()
-            pose = Pose2(x, y, start[2] if len(start) > 2 else 0.0)
+            in_file = Pose2(start[0], start[1], start[2] if len(start) > 2 else 0.0)
+            pose = self.atlas.sketch.file_axes.pose_to_sketch(in_file)
             heading_std = self._prior.given_heading if len(start) > 2 else math.pi
             states = draw_near(
                 pose, self.atlas, self._prior, settings.max_count, self._rng, heading_std=heading_std

@@ -1,9 +1,10 @@
 """From the drawing to places (Wolter 2001, sections 2.2 and 4.1)."""
 
 from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
-from pilotage.maps.cells.decomposition import decompose
+from pilotage.maps.cells.decomposition import Division, NoDoorsError, decompose, divide
 from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, NotEnclosedError, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway, Neighbor
+from pilotage.maps.file_axes import FileAxes
 from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.routing.places import check_place, check_reachable, find_labeled
 from pilotage.maps.routing.roadmap import Roadmap, Route, RouteError, RouteSettings, find_route
@@ -16,10 +17,13 @@ __all__ = [
     "CellGraph",
     "CellSize",
     "DecompositionSettings",
+    "Division",
+    "FileAxes",
     "FreeSpace",
     "Gateway",
     "Label",
     "Neighbor",
+    "NoDoorsError",
     "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",
@@ -32,6 +36,7 @@ __all__ = [
     "check_place",
     "check_reachable",
     "decompose",
+    "divide",
     "find_labeled",
     "find_route",
     "free_space",

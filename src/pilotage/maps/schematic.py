@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from pilotage.geometry import Array, Polyline, segments_of
+from pilotage.geometry import Array, Homography, Polyline, segments_of
+from pilotage.maps.file_axes import FileAxes
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,7 @@ class SchematicMap:
     metres_per_unit: float | None = (
         None  # what the file or its reader says of the scale: a prior, never believed
     )
+    photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""
@@ -59,16 +61,18 @@ class SchematicMap:
         """All segments of all strokes, (n, 4) as x1, y1, x2, y2 [drawing units]."""
         return segments_of(self.strokes)
 
-    def file_from_sketch(self, points: Array) -> Array:
-        """Carry points (n, 2) from the sketch (y up) to the axes of the source file; the unit stays.
+    @property
+    def file_axes(self) -> FileAxes:
+        """How the source file tells places."""
+        return FileAxes(self.y_down, self.photo_from_sketch)
 
-        A direction, counter-clockwise on the page from its x axis, is the same number in both.
-        """
-        return points * (1.0, -1.0) if self.y_down else np.array(points, dtype=np.float64)
+    def file_from_sketch(self, points: Array) -> Array:
+        """Carry points (n, 2) from the sketch (y up) to the axes of the source file."""
+        return self.file_axes.from_sketch(points)
 
     def sketch_from_file(self, points: Array) -> Array:
         """Carry points (n, 2) from the axes of the source file to the sketch (y up)."""
-        return self.file_from_sketch(points)  # a flip is its own inverse
+        return self.file_axes.to_sketch(points)
 
 
 def diameter_of(points: Array) -> float:

@@ -1,4 +1,4 @@
-"""Read a drawing from SVG: every visible stroke is a wall, unless a layer, class or id says otherwise."""
+"""Read what an SVG document shows: shapes and texts in the coordinates of its root."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -14,24 +14,18 @@ from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
-from pilotage.io.svg.roles import Role, Thing
-from pilotage.io.svg.style import leading_number, local_name
+from pilotage.io.svg.style import local_name
 from pilotage.io.svg.tree import Drawn, Viewport, read_page, walk
-from pilotage.maps import Label, SchematicMap
 
 FLATNESS = 0.0005
 """How far a chord may stray from its curve, as a share of the drawing's diagonal: 2 cm in a 40 m building."""
-
-GLYPH_WIDTH = 0.5
-"""Mean width of a letter in font sizes: good enough to find the middle of a word."""
 
 WHITE = svgelements.Color("white")
 
 ROUNDING = 1e-6
 """Relative error that transforms may leave in an area."""
 
-CLOSED, ALWAYS = "data-closed", "always"
-"""Where a door of a world says when it is closed, and what it says if it never opens."""
+WORDED = ("text", "foreignObject")
 
 SHAPES = {
     "path": svgelements.Path,
@@ -65,31 +59,6 @@ class Shape:
     bounds: Bounds
 
 
-def read_svg(path: Path) -> SchematicMap:
-    """Read an SVG (or gzipped SVG) file as a drawing in the units of its root's viewBox.
-
-    Raises FileError for a file that is missing, is not SVG, or shows no stroke.
-    """
-    shapes, texts, page = read_content(path)
-    drawn = [shape for shape in shapes if shape.drawn.role is Role.WALL and stands(shape.drawn)]
-    with reading_values(path):
-        walls = without_background(drawn, page)
-        strokes = tuple(flipped(stroke) for stroke in wall_strokes(walls))
-    if not strokes:
-        raise FileError("a drawing needs at least one visible stroke, found none", path)
-    with reading_values(path):
-        start, goal = (marked(role, shapes, texts) for role in (Role.START, Role.GOAL))
-        labels = tuple(read_label(item) for item in texts if item.role in (Role.WALL, Role.LABEL))
-    return SchematicMap(
-        strokes,
-        start=start,
-        goal=goal,
-        labels=labels,
-        source=str(path),
-        y_down=True,
-    )
-
-
 def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]:
     """Read all shapes and texts that can be seen, and the page they stand on.
 
@@ -100,7 +69,7 @@ def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]
         page = read_page(root)
         items = [item for item in walk(root) if item.style.shown]
         shapes = [shape for item in items for shape in read_shape(item)]
-    texts = [item for item in items if local_name(item.element.tag) == "text" and has_text(item)]
+    texts = [item for item in items if local_name(item.element.tag) in WORDED and has_text(item)]
     return shapes, texts, page
 
 
@@ -113,12 +82,6 @@ def reading_values(path: Path) -> Iterator[None]:
     except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
         reason = f" ({error})" if isinstance(error, ValueError) and str(error) else ""
         raise FileError(f"an SVG drawing holds a value that cannot be read{reason}", path) from error
-
-
-def stands(item: Drawn) -> bool:
-    """Tell whether a stroke belongs to the building itself: not people of a world, nor doors that open."""
-    opens = item.notes.get(CLOSED, ALWAYS) != ALWAYS
-    return item.thing is not Thing.PERSON and not (item.thing is Thing.DOOR and opens)
 
 
 def read_document(path: Path) -> ET.Element:
@@ -218,38 +181,9 @@ def flipped(stroke: Polyline) -> Polyline:
     return Polyline(stroke.vertices * (1.0, -1.0), stroke.closed)
 
 
-def marked(role: Role, shapes: Sequence[Shape], texts: Sequence[Drawn]) -> tuple[float, float] | None:
-    """Find the center of what marks a start or a goal, y up: the first such shape, else the first text."""
-    for shape in shapes:
-        if shape.drawn.role is role:
-            left, top, right, bottom = shape.bounds
-            return (left + right) / 2.0, -(top + bottom) / 2.0
-    return next((read_label(item).position for item in texts if item.role is role), None)
-
-
 def has_text(item: Drawn) -> bool:
     """Tell whether a text says anything that can be seen."""
     return (item.style.filled or item.style.stroked) and any(part.strip() for part in item.element.itertext())
-
-
-def read_label(item: Drawn) -> Label:
-    """Read the words of a text, and where their middle is, y up."""
-    text = " ".join("".join(item.element.itertext()).split())
-    style = item.style.values
-    size = leading_number(style["font-size"], 16.0)
-    anchored = {"middle": 0.0, "end": -0.5}.get(style["text-anchor"], 0.5)
-    x, y = (first_coordinate(item, name) for name in ("x", "y"))
-    middle = apply(item.page_from_element, np.array([x + anchored * len(text) * GLYPH_WIDTH * size, y]))
-    if not np.abs(middle).max() <= FARTHEST:
-        raise ValueError(f"<text> stands farther away than {FARTHEST:g}")
-    return Label(text, (float(middle[0]), float(-middle[1])))
-
-
-def first_coordinate(item: Drawn, name: str) -> float:
-    """Read where a text begins: its own coordinate, else that of its first part that has one."""
-    inner = (part.get(name) for part in item.element.iter() if part.get(name))
-    text = item.measures.get(name) or next(inner, None) or "0"
-    return leading_number(text, 0.0)
 
 
 def apply(matrix: svgelements.Matrix, point: Array) -> Array:

@@ -12,6 +12,7 @@ INITIAL: Mapping[str, str] = {
     "fill": "black",
     "stroke": "none",
     "stroke-width": "1",
+    "stroke-dasharray": "none",
     "stroke-opacity": "1",
     "fill-opacity": "1",
     "visibility": "visible",
@@ -26,6 +27,9 @@ AT_RULE = re.compile(r"@[^{};]+\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}|@[^;{}]+;")
 RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
 COMPOUND = re.compile(r"([\w-]+|\*)?((?:[.#][\w-]+)*)")
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)")
+
+CHOICE = re.compile(r"\s*(?:light-dark\(((?:[^(),]|\([^()]*\))+),.*\)|var\([^,()]*,(.*)\))\s*", re.DOTALL)
+"""Functions of CSS that offer two paints."""
 
 
 def local_name(name: str) -> str:
@@ -55,6 +59,17 @@ def declarations(text: str) -> dict[str, str]:
     return {
         name.strip().lower(): value.replace("!important", "").strip() for name, colon, value in pairs if colon
     }
+
+
+def resolved(paint: str) -> str:
+    """Choose the paint of a light page, and what stands in for a variable.
+
+    >>> resolved("light-dark(#ffffff, var(--dark))"), resolved("var(--ink, rgb(0, 0, 0))")
+    ('#ffffff', 'rgb(0, 0, 0)')
+    """
+    while match := CHOICE.fullmatch(paint):
+        paint = (match[1] or match[2] or "none").strip()
+    return paint
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,8 +204,8 @@ class Style:
 
     def paint(self, name: str) -> str:
         """Return the paint of "stroke" or "fill" as it is written."""
-        value = self.values[name]
-        return self.values["color"] if value.lower() == "currentcolor" else value
+        value = resolved(self.values[name])
+        return resolved(self.values["color"]) if value.lower() == "currentcolor" else value
 
     def _painted(self, name: str) -> bool:
         color = Color(self.paint(name))

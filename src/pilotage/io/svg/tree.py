@@ -8,8 +8,9 @@ from xml.etree.ElementTree import Element
 
 from svgelements import Matrix, Viewbox
 
-from pilotage.io.svg.roles import Role, Thing, role_of, thing_of
-from pilotage.io.svg.style import Style, StyleSheet, local_name
+from pilotage.interpretation import Role
+from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
+from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
 
 USER_UNITS = {
     "": 1.0,
@@ -28,8 +29,11 @@ USER_UNITS = {
 
 LENGTH = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-zA-Z%]*)")
 
-DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text")
+DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "foreignObject")
 LIST_END = re.compile(r"[\s,]")
+OUTLINED = "aria-label"
+"""Where Inkscape keeps the words of a text that was turned into outlines."""
+
 HOLDING = ("svg", "g", "a", "switch")
 MEASURES = {
     "x": 0, "y": 1, "width": 0, "height": 1, "cx": 0, "cy": 1, "r": 2, "rx": 0, "ry": 1,
@@ -73,6 +77,9 @@ class Drawn:
     role: Role
     thing: Thing
     notes: Mapping[str, str]  # the data-... attributes of the element and all that hold it
+    names: tuple[str, ...] = ()  # of all that hold it and its own, the outermost first
+    groups: tuple[int, ...] = ()  # numbers of the groups and uses that hold it, the outermost first
+    outlined: tuple[int, str] | None = None  # the text whose outlines it draws: its number, and its words
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +93,9 @@ class Place:
     role: Role = Role.WALL
     thing: Thing = Thing.SOLID
     notes: Mapping[str, str] = field(default_factory=dict)
+    names: tuple[str, ...] = ()
+    groups: tuple[int, ...] = ()
+    outlined: tuple[int, str] | None = None
 
 
 MAX_ELEMENTS = 100_000
@@ -136,15 +146,43 @@ def walk(root: Element) -> Iterator[Drawn]:
             role=role_of(element, place.role),
             thing=thing_of(element, place.thing),
             notes={**place.notes, **noted(element)},
+            names=place.names + tuple(names_of(element)),
+            groups=place.groups if tag in DRAWN else (*place.groups, count),
+            outlined=(count, element.get(OUTLINED, "").strip()) if element.get(OUTLINED) else place.outlined,
         )
         if tag in DRAWN:
             measures = measured(declared, place.viewport)
-            yield Drawn(element, measures, here.page_from_user, here.style, here.role, here.thing, here.notes)
+            yield Drawn(
+                element,
+                measures,
+                here.page_from_user,
+                here.style,
+                here.role,
+                here.thing,
+                here.notes,
+                here.names,
+                here.groups,
+                here.outlined,
+            )
         elif tag == "use":
             waiting.extend(used(here, by_id))
         else:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
-            waiting.extend(replace(inside, chain=(*inside.chain, child)) for child in reversed(element))
+            children = alternatives(element) if tag == "switch" else list(element)
+            waiting.extend(replace(inside, chain=(*inside.chain, child)) for child in reversed(children))
+
+
+def alternatives(switch: Element) -> list[Element]:
+    """Choose what is drawn of a `switch`: its text, or its foreign object if no text says the same."""
+    foreign = [child for child in switch if is_named(child, "foreignObject")]
+    others = [child for child in switch if not is_named(child, "foreignObject")]
+    said = {spoken(child) for child in others}
+    return others if not foreign or spoken(foreign[0]) in said else foreign[:1]
+
+
+def spoken(element: Element) -> str:
+    """Join the words of an element, however they are broken into lines."""
+    return "".join("".join(element.itertext()).split())
 
 
 def noted(element: Element) -> dict[str, str]:
@@ -173,7 +211,12 @@ def used(place: Place, by_id: Mapping[str | None, Element]) -> Iterator[Place]:
     if local_name(target.tag) != "symbol":
         yield replace(there, chain=(*there.chain, target))
         return
-    symbol = replace(there, chain=(*there.chain, target), role=role_of(target, there.role))
+    symbol = replace(
+        there,
+        chain=(*there.chain, target),
+        role=role_of(target, there.role),
+        names=there.names + tuple(names_of(target)),
+    )
     inside = fitted(symbol, use, offset=False)
     yield from (replace(inside, chain=(*inside.chain, child)) for child in reversed(target))
 

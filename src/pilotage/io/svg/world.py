@@ -21,18 +21,16 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Pose2
+from pilotage.interpretation import Role
 from pilotage.io.svg.reader import (
-    ALWAYS,
-    CLOSED,
     Shape,
     flipped,
-    marked,
     read_content,
     reading_values,
     wall_strokes,
     without_background,
 )
-from pilotage.io.svg.roles import Role, Thing
+from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
 from pilotage.maps import SchematicMap
 from pilotage.simulation import WALKING_SPEED, Door, Person, World
 
@@ -104,11 +102,11 @@ def read_people(shape: Shape) -> Iterator[Person]:
 
 def read_start(shapes: Sequence[Shape]) -> Pose2 | None:
     """Read where the robot begins, and where it looks; along the x axis if nothing is said."""
-    position = marked(Role.START, shapes, [])
-    if position is None:
+    mark = next((shape for shape in shapes if shape.drawn.role is Role.START), None)
+    if mark is None:
         return None
-    mark = next(shape for shape in shapes if shape.drawn.role is Role.START)
-    return Pose2(*position, math.radians(read_number(mark, HEADING, 0.0)))
+    left, top, right, bottom = mark.bounds
+    return Pose2((left + right) / 2.0, -(top + bottom) / 2.0, math.radians(read_number(mark, HEADING, 0.0)))
 
 
 def read_number(shape: Shape, name: str, otherwise: float) -> float:

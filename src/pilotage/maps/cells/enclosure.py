@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.maps.cells.free_space import FreeSpace
+from pilotage.maps.schematic import Label
 
 YARD_MOUTH, YARD_SHARE = 0.8, 0.12
 """A yard opens to the outside with these shares of its own width and of its outline (decision 0011)."""
@@ -23,12 +24,28 @@ class Openings:
     doors: NDArray[np.float64]  # to other regions
 
 
-def drop_outdoors(space: FreeSpace, regions: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Drop yards and solid blocks among the regions (p,) of pieces: -1."""
+def drop_outdoors(
+    space: FreeSpace, regions: NDArray[np.int64], labels: tuple[Label, ...] = (), *, solids_known: bool = False
+) -> NDArray[np.int64]:
+    """Drop yards and solid blocks among the regions (p,) of pieces: -1.
+
+    A closed region that a label names is a room, and so is each one where solids are known, or where no
+    region has a door: then doors were not drawn at all.
+    """
     if not space.outside.any():
         return regions
     kept = np.where(np.isin(regions, find_yards(space, regions)), -1, regions)
-    return np.where(np.isin(kept, find_blocks(space, kept)), -1, kept)
+    if solids_known:
+        return kept
+    blocks = [number for number in find_blocks(space, kept) if not is_named(space, kept == number, labels)]
+    left = np.where(np.isin(kept, blocks), -1, kept)
+    return left if (left >= 0).any() else kept
+
+
+def is_named(space: FreeSpace, members: NDArray[np.bool_], labels: tuple[Label, ...]) -> bool:
+    """Tell whether a label stands in a region, given by its pieces (p,)."""
+    points = shapely.points([label.position for label in labels]) if labels else np.empty(0, dtype=object)
+    return any(shapely.intersects(space.tessellation.pieces[members], point).any() for point in points)
 
 
 def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Openings:

@@ -1,7 +1,7 @@
 """Find free space in a drawing: what its walls enclose, small gaps closed (Wolter 2001, section 4.1)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import rustworkx
@@ -52,6 +52,7 @@ class FreeSpace:
     tessellation: Tessellation  # no chord is narrower than a gap
     inside: NDArray[np.bool_]  # (p,)
     outside: NDArray[np.bool_]  # (p,) what is neither is solid
+    gaps: Array = field(default_factory=lambda: np.empty((0, 2, 2)))  # (n, 2, 2) too narrow, closed
 
     @property
     def region(self) -> shapely.Geometry:
@@ -74,6 +75,8 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
     strokes = significant(sketch.strokes, BLOB * diameter)
     walls = simplify_all(strokes, Simplification(settings.detail * diameter))
     found = within_contours(walls) if sketch.contours else within_strokes(walls, diameter, settings)
+    if sketch.solids:
+        found = replace(found, inside=found.inside & ~within_solids(found.tessellation, sketch.solids))
     if not found.inside.any():
         raise NotEnclosedError(NOTHING)
     return found
@@ -105,16 +108,25 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool))
 
 
+def within_solids(tessellation: Tessellation, solids: Sequence[Polyline]) -> NDArray[np.bool_]:
+    """Tell which pieces lie in walls that have a thickness, (p,): in an odd number of rings."""
+    rings = shapely.make_valid(np.array([shapely.Polygon(ring.vertices) for ring in solids if len(ring) > 2]))
+    points = shapely.point_on_surface(tessellation.pieces)
+    held, _ = shapely.STRtree(rings).query(points, predicate="within")
+    return np.asarray(np.bincount(held, minlength=len(points)) % 2 == 1)
+
+
 def within_strokes(
     strokes: tuple[Polyline, ...], diameter: float, settings: DecompositionSettings
 ) -> FreeSpace:
     """Take what strokes enclose, with openings to the outside and gaps closed."""
     walls = segments_of(strokes)
     framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
-    closed = framed.with_chords(framed.widths >= settings.gap * diameter)
+    is_open = framed.widths >= settings.gap * diameter
+    closed = framed.with_chords(is_open)
     outside = find_outside(closed, settings.outer_opening * diameter)
     slits = closed.reaches < settings.gap * diameter
-    return FreeSpace(closed, ~outside & ~slits, outside)
+    return FreeSpace(closed, ~outside & ~slits, outside, framed.chords[~is_open])
 
 
 def frame_around(walls: Array, margin: float) -> Array:

@@ -20,6 +20,9 @@ MOUTH, MOUTH_DEPTH = 1.8, 0.3
 JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
 """Or free space widens this many times beside it, with a lower narrowing and this area: a wide door."""
 
+THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
+"""A threshold is no deeper than its doors are wide, and these are this share of its own width."""
+
 
 class Regions:
     """Growing regions of pieces, and the chords that lie between each two."""
@@ -95,6 +98,22 @@ def merge_pieces(tessellation: Tessellation, among: NDArray[np.bool_], min_area:
         for other in regions.chords_to[first]:
             consider(first, other)
     return np.asarray(regions.region_of, dtype=np.int64)
+
+
+def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it."""
+    joined = regions.copy()
+    areas = region_areas(tessellation, regions)
+    for number in np.flatnonzero(areas > 0.0):
+        sides = regions[tessellation.sides]
+        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
+        widths = tessellation.widths[beside]
+        others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
+        if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
+            continue
+        if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[regions == number].max():
+            joined[regions == number] = others[np.argmax(areas[others])]
+    return joined
 
 
 def drop_small(tessellation: Tessellation, regions: NDArray[np.int64], min_area: float) -> NDArray[np.int64]:

@@ -1,0 +1,99 @@
+"""Divide one drawing in a process of its own: `python -m benchmarks.lib.divide FILE` prints what came of it.
+
+So that time and memory are those of this drawing, and a crash is that of this drawing.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import shapely
+
+from benchmarks.lib.data import ROOT
+
+TIME_LIMIT_S = 60.0
+"""A drawing that takes longer counts as not read."""
+
+BYTES_PER_MB = 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class Division:
+    """What the program made of a drawing; nothing and an error if it could not be read."""
+
+    cells: tuple[shapely.Polygon, ...] = ()  # in the axes of the file
+    labels: tuple[str, ...] = ()  # one for each cell, empty if it has none
+    small: tuple[bool, ...] = ()  # one for each cell: a scrap, as `CellSize.SMALL` says
+    gateways: tuple[tuple[int, int], ...] = ()  # pairs of cells
+    seconds: float = 0.0  # from opening the file to the cells, libraries and kernels loaded
+    mb: float = 0.0  # peak of the process
+    error: str = ""  # one line
+
+
+def divide(path: Path, *, limit: float = TIME_LIMIT_S) -> Division:
+    """Open a drawing and find its cells, in a new process."""
+    command = [sys.executable, "-m", "benchmarks.lib.divide", str(path)]
+    try:
+        done = subprocess.run(  # noqa: S603  # our own module
+            command, cwd=ROOT, capture_output=True, text=True, timeout=limit, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return Division(seconds=limit, error=f"takes more than {limit:.0f} s")
+    if done.returncode:
+        last = done.stderr.strip().splitlines()[-1:] or [f"ends with status {done.returncode}"]
+        return Division(error=last[0])
+    found = json.loads(done.stdout.splitlines()[-1])
+    cells = tuple(shapely.Polygon(rings[0], rings[1:]) for rings in found.pop("rings"))
+    gateways = tuple((first, second) for first, second in found.pop("gateways"))
+    return Division(cells, tuple(found.pop("labels")), tuple(found.pop("small")), gateways=gateways, **found)
+
+
+def main() -> None:
+    """Print the cells of the drawing that the command line names, as JSON."""
+    from pilotage.io import open_map
+    from pilotage.maps import CellSize, DecompositionSettings, decompose
+    from pilotage.worlds import OFFICE
+
+    decompose(open_map(OFFICE.quick), DecompositionSettings())  # loads what is loaded once
+    start = time.process_time()
+    try:
+        sketch = open_map(sys.argv[1])
+        graph = decompose(sketch, DecompositionSettings())
+    except Exception as error:  # noqa: BLE001  # whatever goes wrong is a result
+        name = "" if type(error).__module__.startswith("pilotage") else f"{type(error).__name__}: "
+        print(json.dumps(unread(f"{name}{error}", time.process_time() - start)))
+        return
+    seconds = time.process_time() - start
+    index = graph.index_from_id
+    found = {
+        "rings": [
+            [sketch.file_from_sketch(ring).tolist() for ring in (cell.outline, *cell.holes)]
+            for cell in graph.cells
+        ],
+        "labels": [cell.label for cell in graph.cells],
+        "small": [cell.size is CellSize.SMALL for cell in graph.cells],
+        "gateways": [[index[name] for name in gateway.cell_ids] for gateway in graph.gateways],
+        "seconds": seconds,
+        "mb": peak_mb(),
+    }
+    print(json.dumps(found))
+
+
+def unread(error: str, seconds: float) -> dict[str, object]:
+    """Describe a drawing that could not be divided."""
+    nothing: dict[str, object] = {"rings": [], "labels": [], "small": [], "gateways": []}
+    return {**nothing, "seconds": seconds, "mb": peak_mb(), "error": " ".join(error.split())}
+
+
+def peak_mb() -> float:
+    """Return the most memory that this process had in use [MB], libraries included."""
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / BYTES_PER_MB
+
+
+if __name__ == "__main__":
+    main()

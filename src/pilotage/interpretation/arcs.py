@@ -1,0 +1,81 @@
+"""Find arcs of a quarter circle, more or less, in drawn lines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Array, Polyline
+
+LEAST_CHORDS = 3
+"""An arc is cut into at least so many chords; fewer are corners of a shape."""
+
+STEEPEST = np.radians(40.0)
+"""Two chords of one arc turn by less than this: a quarter circle is at least LEAST_CHORDS long."""
+
+SWEEP = np.radians([50.0, 130.0])
+"""A door opens by so much: a quarter circle, drawn by people."""
+
+ROUNDNESS = 0.04
+"""No vertex of an arc lies farther off its circle than this share of the radius."""
+
+BOW = 1.6
+"""The chords of an arc differ in length by no more than this factor, its first and last left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A part of a circle."""
+
+    center: Array  # (2,)
+    radius: float
+    ends: Array  # (2, 2)
+    vertices: Array  # (n, 2) of the line that draws it, its ends first and last
+
+
+def find_arcs(line: Polyline) -> Iterator[Arc]:
+    """Find the arcs of one line."""
+    points = line.ring
+    if len(points) < LEAST_CHORDS + 1:
+        return
+    steps = np.diff(points, axis=0)
+    lengths = np.hypot(*steps.T)
+    if (lengths == 0.0).any():
+        points = points[np.append(True, lengths > 0.0)]
+        steps = np.diff(points, axis=0)
+        lengths = np.hypot(*steps.T)
+    if len(steps) < LEAST_CHORDS:
+        return
+    directions = np.arctan2(steps[:, 1], steps[:, 0])
+    turns = (np.diff(directions) + np.pi) % (2.0 * np.pi) - np.pi
+    ratio = np.maximum(lengths[1:], lengths[:-1]) / np.minimum(lengths[1:], lengths[:-1])
+    joined = (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4) & (ratio < BOW * BOW)
+    first = 0
+    for k in range(len(turns) + 1):
+        breaks = (
+            k == len(turns) or not joined[k] or (k > first and np.sign(turns[k]) != np.sign(turns[first]))
+        )
+        if breaks:
+            if k - first + 1 >= LEAST_CHORDS:
+                arc = fitted(points[first : k + 2])
+                if arc is not None:
+                    yield arc
+            first = k + 1 if k == len(turns) or not joined[k] else k
+
+
+def fitted(points: Array) -> Arc | None:
+    """Fit a circle to vertices (n, 2); None if they do not lie on a door's arc."""
+    shifted = points - points.mean(axis=0)
+    matrix = np.column_stack([2.0 * shifted, np.ones(len(points))])
+    solution, *_ = np.linalg.lstsq(matrix, (shifted**2).sum(axis=1), rcond=None)
+    radius = float(np.sqrt(max(solution[2] + solution[0] ** 2 + solution[1] ** 2, 0.0)))
+    center = solution[:2] + points.mean(axis=0)
+    spokes = points - center
+    strays = np.abs(np.hypot(*spokes.T) - radius)
+    if radius == 0.0 or strays.max() > ROUNDNESS * radius:
+        return None
+    angles = np.unwrap(np.arctan2(spokes[:, 1], spokes[:, 0]))
+    sweep = abs(angles[-1] - angles[0])
+    if not SWEEP[0] <= sweep <= SWEEP[1]:
+        return None
+    return Arc(center, radius, points[[0, -1]], points)

@@ -1,0 +1,220 @@
+"""Find doors by what is drawn of them: an arc about the hinge, and a leaf."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array
+from pilotage.interpretation.arcs import Arc, find_arcs
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.sheet import Mark, Sheet
+
+RADII = (0.004, 0.12)
+"""Least and largest radius of a door as a share of the drawing's diagonal: in a hall, in a kiosk."""
+
+ALIKE = 1.6
+"""Doors of one drawing differ in width from their median by no more than this factor."""
+
+LEAF = (0.6, 1.25)
+"""A leaf is as long as the radius of its arc, within these shares."""
+
+SLACK = 0.1
+"""How far a leaf may stray from its arc's spoke, as a share of the radius: people draw it, and it has a thickness."""
+
+BESIDE = 0.25
+"""Where a wall is looked for beyond hinge and latch, as a share of the radius."""
+
+JAMB = 0.06
+"""Share of an opening at either end that is not cut."""
+
+THROUGH = 0.5
+"""How far a wall is cut to either side of an opening, as a share of its width: no wall is thicker."""
+
+TWINS = 0.2
+"""Arcs whose centers and radii differ by less than this share of the radius draw one door: both sides of a line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Door:
+    """An opening with a leaf."""
+
+    hinge: Array  # (2,)
+    latch: Array  # (2,)
+    arc: Arc
+    marks: tuple[int, ...]  # places of the marks that draw its arc, among those seen
+
+    @property
+    def width(self) -> float:
+        """[drawing units]."""
+        return self.arc.radius
+
+    @cached_property
+    def opening(self) -> shapely.Polygon:
+        """What is cut out of the wall."""
+        along = (self.latch - self.hinge) / np.hypot(*(self.latch - self.hinge))
+        across = np.array([-along[1], along[0]]) * THROUGH * self.width
+        first, last = self.hinge + JAMB * self.width * along, self.latch - JAMB * self.width * along
+        return shapely.Polygon([first - across, last - across, last + across, first + across])
+
+    @cached_property
+    def swing(self) -> shapely.Polygon:
+        """Where the leaf swings, and a little more."""
+        sector = shapely.Polygon(np.vstack([self.arc.center, self.arc.vertices]))
+        return shapely.buffer(shapely.make_valid(sector), SLACK * self.width, join_style="mitre")
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """All straight lines that are seen, also those around areas."""
+
+    ends: Array  # (n, 2, 2)
+    owners: NDArray[np.int64]  # (n,) places of their marks
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """Find segments by place."""
+        return shapely.STRtree(shapely.linestrings(self.ends))
+
+    @cached_property
+    def lengths(self) -> Array:
+        """[drawing units], (n,)."""
+        return np.asarray(np.hypot(*(self.ends[:, 1] - self.ends[:, 0]).T))
+
+
+def segments_of(seen: Sequence[Seen]) -> Segments:
+    """Take all lines and borders of areas apart."""
+    ends, owners = [np.empty((0, 2, 2))], [np.empty(0, dtype=np.int64)]
+    for place, mark in enumerate(seen):
+        for part in parts_of(
+            shapely.union(mark.line, shapely.boundary(mark.area)) if not mark.area.is_empty else mark.line
+        ):
+            points = shapely.get_coordinates(part)
+            if len(points) > 1:
+                ends.append(np.stack([points[:-1], points[1:]], axis=1))
+                owners.append(np.full(len(points) - 1, place))
+    return Segments(np.concatenate(ends), np.concatenate(owners))
+
+
+def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door]:
+    """Find the doors that are drawn with an arc.
+
+    An arc is a door's if there is a leaf along one of its spokes, or if it is as wide as those that have one;
+    where no leaf is drawn at all, if a wall ends at its hinge and its latch.
+    """
+    arcs = [(arc, place) for place, mark in enumerate(seen) for arc in arcs_of(sheet.marks[mark.number])]
+    arcs = [(arc, place) for arc, place in arcs if RADII[0] * diagonal <= arc.radius <= RADII[1] * diagonal]
+    if not arcs:
+        return []
+    segments = segments_of(seen)
+    judged = [(arc, marks, *judge(arc, marks, segments)) for arc, marks in without_twins(arcs)]
+    leaved = [arc.radius for arc, _, leaves, _ in judged if leaves.any()]
+    usual = float(np.median(leaved or [arc.radius for arc, *_ in judged]))
+    doors = []
+    for arc, marks, leaves, walls in judged:
+        like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
+        if not like_others or not (leaves.any() or walls.max() == 2.0):
+            continue
+        closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
+        doors.append(Door(arc.center, arc.ends[closed], arc, marks))
+    return doors
+
+
+def arcs_of(mark: Mark) -> list[Arc]:
+    """Find the arcs of a mark."""
+    return [arc for outline in mark.outlines for arc in find_arcs(outline)]
+
+
+def without_twins(arcs: Sequence[tuple[Arc, int]]) -> list[tuple[Arc, tuple[int, ...]]]:
+    """Keep the widest of arcs that draw the same door, with the marks of all."""
+    kept: list[tuple[Arc, list[int]]] = []
+    for arc, place in sorted(arcs, key=lambda item: -item[0].radius):
+        slack = TWINS * arc.radius
+        for other, marks in kept:
+            gap = min(np.abs(arc.ends - other.ends).max(), np.abs(arc.ends - other.ends[::-1]).max())
+            if gap < slack and np.abs(arc.center - other.center).max() < slack:
+                marks.append(place)
+                break
+        else:
+            kept.append((arc, [place]))
+    return [(arc, tuple(sorted(set(marks)))) for arc, marks in kept]
+
+
+def judge(arc: Arc, marks: tuple[int, ...], segments: Segments) -> tuple[NDArray[np.bool_], Array]:
+    """Tell for both ends of an arc whether a leaf lies there, and at how many sides of it there is a wall."""
+    leaves, walls = np.zeros(2, dtype=bool), np.zeros(2)
+    for k, end in enumerate(arc.ends):
+        along = (end - arc.center) / arc.radius
+        leaves[k] = has_leaf(arc, end, segments)
+        for point in (end + BESIDE * along * arc.radius, arc.center - BESIDE * along * arc.radius):
+            near = segments.tree.query(
+                shapely.Point(point), predicate="dwithin", distance=SLACK * 1.5 * arc.radius
+            )
+            walls[k] += bool(np.isin(segments.owners[near], marks, invert=True).any() or len(near) > 0)
+    return leaves, walls
+
+
+def has_leaf(arc: Arc, end: Array, segments: Segments) -> bool:
+    """Tell whether a segment of the right length runs along the spoke to one end of an arc."""
+    spoke = shapely.buffer(
+        shapely.LineString([arc.center, end]), SLACK * 1.5 * arc.radius, cap_style="square"
+    )
+    near = segments.tree.query(spoke, predicate="contains")
+    near = near[
+        (segments.lengths[near] >= LEAF[0] * arc.radius) & (segments.lengths[near] <= LEAF[1] * arc.radius)
+    ]
+    return len(near) > 0
+
+
+def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
+    """Take doors out of what is seen: arcs, leaves, and what closes the opening."""
+    left = list(seen)
+    if not seen:
+        return left
+    tree = shapely.STRtree(np.array([shapely.union(mark.line, mark.area) for mark in seen]))
+    for door in doors:
+        reach = shapely.union(door.swing, door.opening)
+        for place in tree.query(reach, predicate="intersects").tolist():
+            mark = left[place]
+            line, area = mark.line, mark.area
+            if place in door.marks:
+                track = shapely.LineString(door.arc.vertices)
+                narrow, wide = (
+                    shapely.buffer(track, share * door.width, cap_style="square") for share in (SLACK / 2.0, TWINS)
+                )
+                line, area = shapely.difference(line, narrow), shapely.difference(area, wide)
+            line = without_leaf(line, door)
+            area = shapely.difference(area, door.opening)
+            whole = mark.whole and line.equals(mark.line)
+            left[place] = Seen(mark.number, line, area, whole)
+    return left
+
+
+def without_leaf(line: shapely.Geometry, door: Door) -> shapely.Geometry:
+    """Take leaf and threshold of a door out of a line."""
+    if line.is_empty:
+        return line
+    along = (door.latch - door.hinge) / door.width
+    kept = []
+    for part in parts_of(line):
+        points = shapely.get_coordinates(part)
+        steps = np.diff(points, axis=0)
+        segments = shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1))
+        inner = shapely.contains(door.swing, segments)
+        level = np.abs(steps @ np.array([-along[1], along[0]])) < 0.35 * np.hypot(*steps.T)
+        crossed = level & shapely.intersects(segments, door.opening) & ~inner
+        if not inner.any() and not crossed.any():
+            kept.append(part)
+            continue
+        cut = np.where(crossed, shapely.difference(segments, door.opening), segments)
+        kept.append(shapely.line_merge(shapely.union_all(cut[~inner])))
+    pieces = [
+        piece
+        for part in kept
+        for piece in parts_of(part)
+        if piece.geom_type == "LineString" and not piece.is_empty
+    ]
+    return shapely.multilinestrings(pieces) if pieces else NOTHING

@@ -1,0 +1,59 @@
+"""Find letters that were turned into outlines: small painted shapes in rows."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import rustworkx
+import shapely
+
+from pilotage.interpretation.sheet import Mark
+
+TALLEST = 0.03
+"""No letter is higher than this share of the drawing's diagonal: a title is."""
+
+APART = 0.6
+"""Letters of a word are no farther apart than this share of their height."""
+
+LIKE = 2.2
+"""Letters of a word differ in height by no more than this factor: x and l."""
+
+WORD = 3
+"""So many letters make a word."""
+
+CURVED = 6
+"""A letter has more corners than this, but for some: columns and chairs have four."""
+
+SOME = 0.4
+"""So many letters of a word have many corners, as a share."""
+
+
+def find_glyphs(marks: Sequence[Mark], diagonal: float) -> set[int]:
+    """Find the places of marks that are letters, or words of letters."""
+    boxes, corners, owners = [], [], []
+    for place, mark in enumerate(marks):
+        if mark.pen is not None or mark.fill is None:
+            continue
+        for outline in mark.outlines:
+            low, high = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
+            boxes.append((*low.tolist(), *high.tolist()))
+            corners.append(len(outline))
+            owners.append(place)
+    if not boxes:
+        return set()
+    bounds, vertices, holders = np.array(boxes), np.array(corners), np.array(owners)
+    sizes = (bounds[:, 2:] - bounds[:, :2]).max(axis=1)
+    small = sizes <= TALLEST * diagonal
+    words = rustworkx.PyGraph()
+    words.add_nodes_from(range(len(bounds)))
+    shapes = shapely.box(*bounds.T)
+    reach = np.where(small, APART * sizes, 0.0)
+    first, second = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=reach)
+    alike = np.maximum(sizes[first], sizes[second]) <= LIKE * np.minimum(sizes[first], sizes[second])
+    beside = (first != second) & small[first] & small[second] & alike
+    words.add_edges_from_no_data([(int(a), int(b)) for a, b in zip(first[beside], second[beside], strict=True)])
+    letters = np.zeros(len(bounds), dtype=bool)
+    for group in rustworkx.connected_components(words):
+        members = sorted(group)
+        if len(members) >= WORD and np.mean(vertices[members] > CURVED) >= SOME:
+            letters[members] = True
+    return {place for place in set(owners) if letters[holders == place].all()}

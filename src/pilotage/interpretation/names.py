@@ -1,0 +1,94 @@
+"""What a mark is called, and what its name makes it: the words for walls, doors and the rest."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from pilotage.interpretation.sheet import Role
+
+WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+")
+LOCAL_WORD = re.compile(r"[^\W\d_]+")
+
+SPOKEN: Mapping[str, Role] = {
+    "label": Role.LABEL,
+    "labels": Role.LABEL,
+    "start": Role.START,
+    "starts": Role.START,
+    "goal": Role.GOAL,
+    "goals": Role.GOAL,
+    "furniture": Role.FURNITURE,
+    "ignore": Role.IGNORE,
+    "ignored": Role.IGNORE,
+}
+"""The words with which a user tells this program a role; they are always believed."""
+
+VOCABULARY: Mapping[Role, str] = {
+    Role.WALL: "wall walls wand waende wände mauer mur murs cloison muro muri muros parete parede paredes pared"
+    " tabique muur muren vägg vegg seinä стена стены",
+    Role.DOOR: "door doors doorarc tür türen tuer tueren porte portes porta porte portas puerta puertas deur dörr"
+    " ovi двери дверь",
+    Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana ventanas"
+    " janela janelas raam fönster ikkuna окно окна",
+    Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera escaleras"
+    " escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
+    Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
+    " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture fixtures"
+    " sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb kitchenware plants trees cabinet"
+    " desk chair table sofa bed toilet sink bathtub shower мебель",
+    Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto",
+    Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota cotas"
+    " title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes achse achsen"
+    " hatch hatching pattern schraffur hachures defpoints viewport viewports legend north",
+}
+"""What people call the layers of their plans, in several languages and in the codes of CAD standards."""
+
+MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
+
+
+def words_of(name: str) -> Iterator[str]:
+    """Split a name into words of lower case.
+
+    >>> list(words_of("roomLabels_2"))
+    ['room', 'labels']
+    """
+    yield from (word.lower() for word in WORD.findall(name))
+
+
+def role_named(names: Iterable[str], inherited: Role = Role.WALL) -> Role:
+    """Tell a role by the words of this program; IGNORE is never undone."""
+    spoken = [SPOKEN[word] for name in names for word in words_of(name) if word in SPOKEN]
+    if inherited is Role.IGNORE or Role.IGNORE in spoken:
+        return Role.IGNORE
+    return spoken[0] if spoken else inherited
+
+
+def told_role(names: Sequence[str], layers: Mapping[str, Role]) -> tuple[Role, str] | None:
+    """Tell a role that a person gave, and the name that gave it: a hint, or a word of this program.
+
+    Inner names win over outer ones, but what is ignored stays ignored.
+    """
+    for name in reversed(names):
+        if name in layers:
+            return layers[name], f"you said that {name!r} is {layers[name].value}"
+    found = None
+    for name in names:
+        role = role_named([name])
+        if role is Role.IGNORE:
+            return role, f"its name is {name!r}"
+        if role is not Role.WALL:
+            found = role, f"its name is {name!r}"
+    return found
+
+
+def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
+    """Guess a role by what people call their layers, the innermost name first."""
+    for name in reversed(names):
+        for word in name_words(name):
+            if word in MEANING:
+                return MEANING[word], f"its name is {name!r}"
+    return None
+
+
+def name_words(name: str) -> list[str]:
+    """Split a name in any language into words: A-FURN-FIX, wandInnen, "Türen 2"."""
+    spaced = re.sub(r"(?<=[a-zà-öø-ÿ])(?=[A-ZÀ-ÖØ-Þ])", " ", name)
+    return [word.lower() for word in LOCAL_WORD.findall(spaced)]

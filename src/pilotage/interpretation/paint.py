@@ -1,0 +1,112 @@
+"""What can be seen of each mark once all is painted: what later paint hides is not there."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.geometry import Polyline
+from pilotage.interpretation.paper import difference
+from pilotage.interpretation.sheet import Color, Mark, Sheet
+
+FAINT = 0.1
+"""Paint that differs less than this from the ground in every channel cannot be seen: it erases."""
+
+EDGE = 0.0005
+"""Paint hides nothing this near its border, as a share of the drawing's diagonal: neighbors share edges."""
+
+NOTHING = shapely.GeometryCollection()
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is left of a mark."""
+
+    number: int  # of the mark in its sheet
+    line: shapely.Geometry  # where its pen is seen, a line without width
+    area: shapely.Geometry  # where its fill is seen
+    whole: bool  # whether all of its line is seen
+
+
+def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float) -> list[Seen]:
+    """Find what is seen of the marks with these numbers; a mark of which nothing is seen is left out."""
+    marks = [sheet.marks[number] for number in numbers]
+    areas = [area_of(mark) if mark.fill is not None else NOTHING for mark in marks]
+    inked = [mark.pen is not None and difference(mark.pen.color, ground) >= FAINT for mark in marks]
+    lines = [line_of(mark) if shown else NOTHING for mark, shown in zip(marks, inked, strict=True)]
+    covers = [cover_of(mark, area, ground, EDGE * diagonal) for mark, area in zip(marks, areas, strict=True)]
+    tree = shapely.STRtree(np.array([shapely.union(*pair) for pair in zip(lines, areas, strict=True)]))
+    hidden: dict[int, list[int]] = {}
+    for later, cover in enumerate(covers):
+        if not cover.is_empty:
+            for earlier in tree.query(cover, predicate="intersects").tolist():
+                if earlier < later:
+                    hidden.setdefault(earlier, []).append(later)
+    seen = []
+    for place, (number, mark) in enumerate(zip(numbers, marks, strict=True)):
+        line, area = lines[place], areas[place]
+        if mark.fill is not None and difference(mark.fill, ground) < FAINT:
+            area = NOTHING
+        above = [covers[later] for later in hidden.get(place, [])]
+        if above:
+            cover = shapely.union_all(above)
+            line, area = shapely.difference(line, cover), shapely.difference(area, cover)
+        if not (line.is_empty and area.is_empty):
+            whole = not above or bool(np.isclose(line.length, lines[place].length, rtol=1e-6))
+            seen.append(Seen(number, line, area, whole))
+    return seen
+
+
+def line_of(mark: Mark) -> shapely.Geometry:
+    """Return the middle of a mark's line."""
+    return shapely.multilinestrings([shapely.linestrings(outline.ring) for outline in mark.outlines])
+
+
+def area_of(mark: Mark) -> shapely.Geometry:
+    """Return the area that a mark's outlines enclose, by the even-odd rule."""
+    rings = [outline.vertices for outline in mark.outlines if len(outline) > 2]
+    if not rings:
+        return NOTHING
+    polygons = shapely.multipolygons([shapely.polygons(ring) for ring in rings])
+    return polygons_of(shapely.make_valid(polygons, method="linework"))
+
+
+def cover_of(mark: Mark, area: shapely.Geometry, ground: Color, edge: float) -> shapely.Geometry:
+    """Return what a mark hides: its area up to its edge, and the width of a line that cannot be seen."""
+    cover = shapely.buffer(area, -edge, join_style="mitre") if not area.is_empty else NOTHING
+    if mark.pen is not None and mark.pen.width > 0.0 and difference(mark.pen.color, ground) < FAINT:
+        track = shapely.buffer(line_of(mark), mark.pen.width / 2.0, cap_style="flat", join_style="mitre")
+        cover = shapely.union(cover, track)
+    return cover
+
+
+def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:
+    """Keep the areas of a collection."""
+    parts = [part for part in parts_of(shape) if part.geom_type == "Polygon"]
+    return shapely.multipolygons(parts) if parts else NOTHING
+
+
+def parts_of(shape: shapely.Geometry) -> NDArray[np.object_]:
+    """List all simple parts of nested collections."""
+    parts = np.atleast_1d(shapely.get_parts(shape))
+    while any(shapely.get_num_geometries(part) > 1 or "Multi" in part.geom_type for part in parts):
+        parts = shapely.get_parts(parts)
+    return parts
+
+
+def polylines_of(shape: shapely.Geometry) -> list[Polyline]:
+    """List the lines of a shape."""
+    lines = shapely.line_merge(shape) if shape.geom_type.startswith("Multi") else shape
+    return [
+        Polyline(coordinates[:-1], closed=True) if is_ring(coordinates) else Polyline(coordinates)
+        for line in parts_of(lines)
+        if line.geom_type in ("LineString", "LinearRing")
+        and len(coordinates := shapely.get_coordinates(line)) > 1
+    ]
+
+
+def is_ring(coordinates: NDArray[np.float64]) -> bool:
+    """Tell whether a line of vertices (n, 2) ends where it began."""
+    return len(coordinates) > 3 and bool((coordinates[0] == coordinates[-1]).all())

@@ -1,0 +1,86 @@
+"""Find the sheet of paper that a drawing stands on, and the color of its ground."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.geometry import Polyline
+from pilotage.interpretation.sheet import WHITE, Bounds, Color, Mark, Sheet
+
+ROUNDING = 1e-6
+"""Relative error that transforms may leave in an area."""
+
+SAME = 0.02
+"""Colors that differ by less than this in every channel are one color."""
+
+COVERING = 0.999
+"""A rectangle covers the page if it hides this share of it: exporters round."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """What lies below the drawing."""
+
+    sheets: tuple[int, ...]  # which marks are sheets of paper
+    ground: Color  # the color that the drawing stands on
+
+
+def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
+    """Find sheets of paper among the marks drawn: rectangles, filled but without a line, below all else.
+
+    A sheet covers the whole page, or is white or of the color of the ground and holds all else; a colored rectangle on
+    a part of the page is a building.
+    """
+    sheets: list[int] = []
+    ground = sheet.background
+    bounds = [bounds_of(mark) for mark in sheet.marks]
+    for place, number in enumerate(drawn[:-1]):
+        mark = sheet.marks[number]
+        covering = sheet.page is not None and share_within(sheet.page, bounds[number]) >= COVERING
+        of_ground = mark.fill is not None and min(difference(mark.fill, c) for c in (ground, WHITE)) < SAME
+        framing = of_ground and all(holds(bounds[number], bounds[other]) for other in drawn[place + 1 :])
+        if mark.pen is not None or mark.fill is None or not is_box(mark) or not (covering or framing):
+            break
+        sheets.append(number)
+        ground = mark.fill if covering else ground
+    return Paper(tuple(sheets), ground)
+
+
+def difference(first: Color, second: Color) -> float:
+    """Return the largest difference of two colors in a channel, 0 to 1."""
+    return max(abs(a - b) for a, b in zip(first, second, strict=True))
+
+
+def bounds_of(mark: Mark) -> Bounds:
+    """Return left, bottom, right and top of a mark."""
+    points = np.vstack([outline.vertices for outline in mark.outlines])
+    (left, bottom), (right, top) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return left, bottom, right, top
+
+
+def holds(outer: Bounds, inner: Bounds) -> bool:
+    """Tell whether one box lies in another."""
+    return outer[0] <= inner[0] and outer[1] <= inner[1] and outer[2] >= inner[2] and outer[3] >= inner[3]
+
+
+def share_within(box: Bounds, cover: Bounds) -> float:
+    """Tell which share of a box another hides."""
+    width = min(box[2], cover[2]) - max(box[0], cover[0])
+    height = min(box[3], cover[3]) - max(box[1], cover[1])
+    area = (box[2] - box[0]) * (box[3] - box[1])
+    return max(width, 0.0) * max(height, 0.0) / area if area > 0.0 else 0.0
+
+
+def is_box(mark: Mark) -> bool:
+    """Tell whether a mark is a rectangle along the axes: it fills its bounds."""
+    left, bottom, right, top = bounds_of(mark)
+    box = (right - left) * (top - bottom)
+    return len(mark.outlines) == 1 and math.isclose(area_of(mark.outlines[0]), box, rel_tol=ROUNDING)
+
+
+def area_of(outline: Polyline) -> float:
+    """Return the area that an outline encloses once it is closed."""
+    x, y = (outline.vertices - outline.vertices[0]).T
+    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2.0

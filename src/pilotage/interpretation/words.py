@@ -1,0 +1,93 @@
+"""Join lines of words to names, and set areas and measures apart."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.interpretation.sheet import Text
+
+LEADING = 2.1
+"""Lines of one name are no farther apart than so many heights of their letters."""
+
+GLYPH_WIDTH = 0.5
+"""Mean width of a letter in heights of a line."""
+
+ALIKE = 1.35
+"""Lines of one name differ in height by no more than this factor."""
+
+MEASURE = re.compile(
+    r"""^\W*(?:(?:area|fläche|superficie|surface)\W*)?
+    (?:[\d.,'"’”′″\s/xX×*-]+(?:ft|feet|in|m|mm|cm)?\.?[\sxX×*]*)*
+    \d*[.,]?\d+\s*(?:m2|m²|qm|㎡|sq\.?\s*(?:m|ft|feet|metres|meters)\.?|sf|ft²|ft2|mq|m\^2|кв\.?\s*м\.?)\W*$
+    |^\W*(?=.*\d)[\d.,'"’”′″\s/-]+(?:ft|feet|in|m|mm|cm)?\.?\s*[xX×*]\s*[\d.,'"’”′″\s/-]+(?:ft|feet|in|m|mm|cm)?\.?\W*$
+    |^\W*(?=.*\d)[\d.,\s/-]*\d\s*(?:['"’”′″]|ft|feet|mm|cm|m)[\d\s.,'"’”′″/-]*\W*$
+    """,
+    re.VERBOSE | re.IGNORECASE,
+)
+"""An area, two sides of a room, or a length with its unit."""
+
+MARK_OF_NOTHING = re.compile(r"^\W*$")
+"""Words without a letter or a digit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A name of a place, of one line or several."""
+
+    words: str
+    position: tuple[float, float]
+    members: tuple[int, ...]  # numbers of its texts
+
+
+def is_measure(words: str) -> bool:
+    """Tell areas and lengths from names.
+
+    >>> [is_measure(words) for words in ("11.2 m²", "3.50 x 4.20", "12'-0\\" x 10'-6\\"", "Room 7", "201")]
+    [True, True, True, False, False]
+    """
+    return MEASURE.match(words) is not None
+
+
+def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
+    """Join the lines of each name, the upper first; words without a letter, and measures, are left out."""
+    kept = [(n, text) for n, text in texts if not is_measure(text.text) and not MARK_OF_NOTHING.match(text.text)]
+    following: dict[int, int] = {}
+    for place, (_, upper) in enumerate(kept):
+        below = [
+            (distance, other)
+            for other, (_, lower) in enumerate(kept)
+            if other != place and (distance := step_down(upper, lower)) is not None
+        ]
+        if below:
+            _, nearest = min(below)
+            if nearest not in following.values():
+                following[place] = nearest
+    starts = set(range(len(kept))) - set(following.values())
+    names = []
+    for start in sorted(starts):
+        chain = [start]
+        while chain[-1] in following:
+            chain.append(following[chain[-1]])
+        lines = [kept[place][1] for place in chain]
+        x, y = np.mean([line.position for line in lines], axis=0).tolist()
+        names.append(Name(" ".join(line.text for line in lines), (x, y), tuple(kept[place][0] for place in chain)))
+    return names
+
+
+def step_down(upper: Text, lower: Text) -> float | None:
+    """Measure from one line to the next of the same name; None if it is none."""
+    height = max(upper.height, lower.height)
+    if min(upper.height, lower.height) <= 0.0 or height > ALIKE * min(upper.height, lower.height):
+        return None
+    if abs(math.remainder(upper.angle - lower.angle, 2.0 * math.pi)) > 0.1:
+        return None
+    c, s = math.cos(upper.angle), math.sin(upper.angle)
+    dx, dy = lower.position[0] - upper.position[0], lower.position[1] - upper.position[1]
+    along, down = c * dx + s * dy, s * dx - c * dy
+    reach = GLYPH_WIDTH * height * (len(upper.text) + len(lower.text)) / 2.0
+    if not 0.5 * height < down <= LEADING * height or abs(along) > reach:
+        return None
+    return down

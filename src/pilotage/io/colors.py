@@ -1,0 +1,29 @@
+"""Colors as drawing programs write them."""
+
+from pilotage.interpretation.sheet import Color
+
+NOTHING = frozenset(("", "none", "transparent", "inherit"))
+
+
+def read_color(text: str, opacity: float = 1.0) -> Color | None:
+    """Return a color as it looks on white paper; None if it is transparent or not understood.
+
+    >>> read_color("#f00"), read_color("#00000080"), read_color("transparent")
+    ((1.0, 0.0, 0.0), (0.4980392156862745, 0.4980392156862745, 0.4980392156862745), None)
+    """
+    from PIL import ImageColor
+
+    name = text.strip().lower()
+    if name.startswith("light-dark("):
+        name = name.removeprefix("light-dark(").split(",")[0].strip()
+    if name in NOTHING:
+        return None
+    try:
+        red, green, blue, *alpha = ImageColor.getrgb(name)
+    except ValueError:
+        return None
+    share = min(max(opacity, 0.0), 1.0) * (alpha[0] / 255.0 if alpha else 1.0)
+    if share <= 0.0:
+        return None
+    mixed = [1.0 - share * (1.0 - value / 255.0) for value in (red, green, blue)]
+    return mixed[0], mixed[1], mixed[2]

@@ -1,0 +1,158 @@
+"""From the features of an indoor map to the sheet of one level."""
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from pilotage.errors import FileError
+from pilotage.geometry import Array
+from pilotage.interpretation.sheet import BLACK, Pen, Sheet, Text
+from pilotage.io.indoor.features import Feature, Kind
+from pilotage.io.pages import choose_page, other_pages
+from pilotage.io.sheet_builder import MOST_MARKS, SheetBuilder, outline_through
+
+EARTH = 6_371_008.8
+"""Mean radius of the earth [m]."""
+
+LARGEST_SPAN = 0.1
+"""Coordinates that span less than this and could be degrees are degrees: 11 km; no drawing is so small."""
+
+DOOR_WIDTH = 0.9
+"""Width of a door whose width is not told [m]."""
+
+REACH = 0.3
+"""A door opens the walls that are at most this far from it [m]."""
+
+GRID = 0.001
+"""Coordinates are rounded to this [m], so that the walls of neighbors coincide."""
+
+CAPITAL = 0.3
+"""Height of a room's name [m]."""
+
+ROOMS = (Kind.ROOM, Kind.CORRIDOR)
+WALLED = (Kind.ROOM, Kind.CORRIDOR, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
+OPEN = (Kind.CORRIDOR, Kind.AREA)
+SPACES = (Kind.ROOM, Kind.CORRIDOR, Kind.AREA, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
+
+
+def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> Sheet:
+    """Draw one level: the one that is given, else the one with most rooms.
+
+    Degrees become metres from the lower left corner of the map. Raises FileError if the level is empty.
+    """
+    if len(features) > MOST_MARKS:
+        raise FileError(f"an indoor map must have at most {MOST_MARKS:,} features", path)
+    if not features:
+        raise FileError("an indoor map needs at least one room, wall or line, found none", path)
+    shapes, metres = projected([feature.shape for feature in features])
+    names = level_names(features)
+    chosen = choose_page(names, level, path, kind="level") if names else 0
+    shown = [
+        (feature, shape)
+        for feature, shape in zip(features, shapes, strict=True)
+        if not names or not feature.levels or names[chosen] in feature.levels
+    ]
+    builder = SheetBuilder(path)
+    draw_walls(builder, shown)
+    for feature, shape in shown:
+        with builder.surviving("damaged features"):
+            draw(builder, feature, shape)
+    return builder.build(
+        metres_per_unit=metres, remarks=other_pages(names, chosen, path, kind="level") if names else ()
+    )
+
+
+def level_names(features: Sequence[Feature]) -> list[str]:
+    """List the levels, the one with most rooms first."""
+    rooms = Counter(level for feature in features for level in feature.levels if feature.kind in ROOMS)
+    all_of = Counter(level for feature in features for level in feature.levels)
+    return sorted(all_of, key=lambda level: (-rooms[level], -all_of[level], level))
+
+
+def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry], float | None]:
+    """Carry longitudes and latitudes [deg] to a plane [m]; other coordinates stay as they are."""
+    left, bottom, right, top = shapely.total_bounds(shapes)
+    span = max(right - left, top - bottom)
+    if not (abs(left) <= 180.0 and abs(right) <= 180.0 and abs(bottom) <= 90.0 and abs(top) <= 90.0):
+        return list(shapes), None
+    if not span < LARGEST_SPAN:
+        return list(shapes), None
+    north = math.radians(1.0) * EARTH
+    scale = np.array([north * math.cos(math.radians((bottom + top) / 2.0)), north])
+
+    def plane(points: Array) -> Array:
+        return np.asarray((points - (left, bottom)) * scale)
+
+    moved = [shapely.set_precision(shapely.transform(shape, plane), GRID) for shape in shapes]
+    return moved, 1.0
+
+
+def draw_walls(builder: SheetBuilder, shown: Sequence[tuple[Feature, shapely.Geometry]]) -> None:
+    """Draw the walls of all rooms, each once, open at doors and between corridors."""
+    walls = [lines_of(shape) for feature, shape in shown if feature.kind in WALLED]
+    spaces = [shape for feature, shape in shown if feature.kind in SPACES]
+    outer = [lines_of(shape) for feature, shape in shown if feature.kind is Kind.BUILDING]
+    if not walls and not outer:
+        outer = [lines_of(shape) for shape in spaces]
+    passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
+    openings = [
+        shapely.buffer(shape, (feature.width or DOOR_WIDTH) / 2.0)
+        if shape.geom_type == "Point"
+        else shapely.buffer(shape, REACH, cap_style="flat")
+        for feature, shape in shown
+        if feature.kind is Kind.OPENING
+    ]
+    drawn = shapely.union_all([*walls, *outer])
+    drawn = shapely.difference(drawn, shared(passages))
+    drawn = shapely.difference(drawn, shapely.union_all(openings))
+    for part in shapely.get_parts(shapely.line_merge(drawn)):
+        if part.geom_type == "LineString" and part.length > 0.0:
+            builder.add_mark(
+                [outline_through(shapely.get_coordinates(part))],
+                pen=Pen(BLACK),
+                names=("wall",),
+                source="walls",
+            )
+
+
+def shared(lines: Sequence[shapely.Geometry]) -> shapely.Geometry:
+    """Return what two or more lines have in common."""
+    if not lines:
+        return shapely.GeometryCollection()
+    first, second = shapely.STRtree(lines).query(lines, predicate="intersects")
+    pairs = [(a, b) for a, b in zip(first.tolist(), second.tolist(), strict=True) if a < b]
+    common = [shapely.intersection(lines[a], lines[b]) for a, b in pairs]
+    parts = [part for shape in common for part in shapely.get_parts(shape)]
+    return shapely.union_all([part for part in parts if part.length > 0.0])
+
+
+def lines_of(shape: shapely.Geometry) -> shapely.Geometry:
+    """Return the outlines of areas, and lines as they are."""
+    return shapely.boundary(shape) if shape.geom_type in ("Polygon", "MultiPolygon") else shape
+
+
+def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry) -> None:
+    """Draw what is no wall, and write the name of a feature."""
+    names = (feature.kind.value,)
+    group = (builder.new_group(),)
+    is_solid = feature.kind is Kind.COLUMN
+    if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, Kind.STAIRS, Kind.ELEVATOR):
+        for part in shapely.get_parts(shape):
+            rings = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
+            builder.add_mark(
+                [outline_through(shapely.get_coordinates(ring)) for ring in rings],
+                pen=Pen(BLACK),
+                fill=BLACK if is_solid and part.geom_type == "Polygon" else None,
+                names=names,
+                groups=group,
+                source=feature.source,
+            )
+    if feature.name and feature.kind is not Kind.OPENING and not shape.is_empty:
+        point = shapely.point_on_surface(shape)
+        builder.add_text(
+            Text(feature.name, (point.x, point.y), CAPITAL, names=names, groups=group, source=feature.source)
+        )

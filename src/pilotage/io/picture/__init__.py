@@ -1,0 +1,10 @@
+"""From a picture of a drawing to its marks: a photo of paper, a scan, a screenshot, a whiteboard.
+
+In the order of the work: `photo` finds the paper and straightens it, `light` takes away shades and floors,
+`ink` finds what was drawn and takes away ruled lines, `text` tells words apart, `trace` makes lines and areas
+of the rest. `sheet` puts them together.
+"""
+
+from pilotage.io.picture.sheet import read_picture_sheet, sheet_of
+
+__all__ = ["read_picture_sheet", "sheet_of"]

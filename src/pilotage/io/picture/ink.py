@@ -1,0 +1,73 @@
+"""Tell ink from paper, and the lines that paper was printed with from both."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Mask = NDArray[np.bool_]
+
+LEAST_CONTRAST = 0.12
+"""Ink takes at least this share of paper's light."""
+
+FAINT = 0.6
+"""Ruled lines have less than this share of the contrast of the pen."""
+
+RULED = 0.55
+"""Faint ink is ruling if at least this share of it lies on straight lines across the paper."""
+
+ACROSS = 0.25
+"""A line across the paper covers this share of its side, in one piece or with words and walls over it."""
+
+STEEPEST = 0.03
+"""Ruled lines slant by at most this much on a straightened sheet."""
+
+SLANTS = 13
+"""So many slants are tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ink:
+    """What was drawn."""
+
+    mask: Mask  # (height, width)
+    ruled: bool  # whether lines of ruled or squared paper were taken away
+
+
+def find_ink(flat: NDArray[np.float32]) -> Ink:
+    """Find ink of any color on flattened paper (height, width, 3)."""
+    from scipy.ndimage import binary_dilation
+    from skimage.filters import threshold_otsu
+
+    contrast = 1.0 - flat.min(axis=2)
+    drawn = contrast[contrast > LEAST_CONTRAST]
+    if not drawn.size or float(np.ptp(drawn)) == 0.0:
+        return Ink(contrast > LEAST_CONTRAST, ruled=False)
+    between = float(threshold_otsu(drawn))
+    pen = float(np.median(drawn[drawn > between]))
+    faint_until = min(between, FAINT * pen)
+    strong = contrast > faint_until
+    faint = (contrast > LEAST_CONTRAST) & ~binary_dilation(strong, iterations=2)
+    if is_ruled(faint):
+        return Ink(strong, ruled=True)
+    return Ink(contrast > max(LEAST_CONTRAST, 0.4 * min(between, 0.6 * pen)), ruled=False)
+
+
+def is_ruled(faint: Mask) -> bool:
+    """Tell whether faint ink is mostly straight lines across the paper, along either side."""
+    total = int(np.count_nonzero(faint))
+    if not total:
+        return False
+    return (on_lines(faint) + on_lines(faint.T)) / total > RULED
+
+
+def on_lines(faint: Mask) -> int:
+    """Count pixels on lines across the paper, as steep as most of them are."""
+    rows, columns = np.nonzero(faint)
+    height, width = faint.shape
+    best = 0
+    for slant in np.linspace(-STEEPEST, STEEPEST, SLANTS):
+        row = np.round(rows + slant * columns).astype(np.int64) + height
+        counts = np.bincount(row, minlength=3 * height)
+        best = max(best, int(counts[counts > ACROSS * width].sum()))
+    return best

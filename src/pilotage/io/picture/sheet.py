@@ -1,0 +1,125 @@
+"""From a picture to a sheet of marks."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array, Homography, Polyline
+from pilotage.interpretation import Mark, Pen, Sheet
+from pilotage.io.picture.ink import find_ink
+from pilotage.io.picture.light import flatten
+from pilotage.io.picture.photo import find_paper, is_photo, straighten
+from pilotage.io.picture.text import find_words
+from pilotage.io.picture.trace import Area, Line, pen_width_of, trace
+
+ENOUGH = 2_000_000
+"""A picture of more pixels than this is read at a half, a third, ... of its size."""
+
+FEW = 700_000
+"""A picture of fewer pixels is read at twice its size, for its lines are a pixel or two wide."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Where the pixels that were looked at lie: `scale` times their place, moved to `corner`, y up."""
+
+    scale: float
+    corner: tuple[float, float]  # [pixels of the straightened plane], y down
+
+    def points(self, pixels: Array) -> Array:
+        """Carry points (n, 2), y down, to the plane, y up."""
+        return np.asarray((pixels * self.scale + self.corner) * (1.0, -1.0))
+
+
+def read_picture_sheet(path: Path) -> Sheet:
+    """Read a drawing by pen, pencil or program from a picture of it.
+
+    Raises FileError if it cannot be read.
+    """
+    from pilotage.io.raster import read_picture
+
+    return sheet_of(read_picture(path).colors, source=str(path))
+
+
+def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
+    """Trace a picture (height, width, 3) of shades from 0 to 1; a unit of the sheet is a pixel of it.
+
+    A photo of paper on a table is straightened, and `photo_from_sheet` carries points back to its pixels.
+    """
+    from skimage.morphology import skeletonize
+
+    scale, working = resized(colors)
+    photo = is_photo(working)
+    corners = find_paper(working) if photo else None
+    corner, homography = (0.0, 0.0), None
+    if corners is not None:
+        paper = straighten(working, corners)
+        working, homography = paper.colors, to_full_size(paper.picture_from_plane, scale)
+        corner = (paper.corner[0] * scale, paper.corner[1] * scale)
+    flat = flatten(working, is_photo=photo)
+    ink = find_ink(flat)
+    middle = skeletonize(ink.mask)
+    pen_width = pen_width_of(ink.mask, middle)
+    words = find_words(ink.mask, middle, pen_width)
+    areas, lines = trace(ink.mask & ~words, flat, pen_width)
+    return Sheet(
+        marks_of(areas, lines, Plane(scale, corner)),
+        y_down=True,
+        source=source,
+        photo_from_sheet=homography,
+        left_out=left_out(words, ruled=ink.ruled),
+    )
+
+
+def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
+    """Make a picture a size that is good to trace; returns how many pixels one of its pixels was."""
+    height, width = colors.shape[:2]
+    if height * width < FEW:
+        from PIL import Image
+
+        size = (2 * width, 2 * height)
+        channels = [Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC) for k in range(3)]
+        return 0.5, np.clip(np.dstack([np.asarray(channel) for channel in channels]), 0.0, 1.0)
+    step = int(np.sqrt(height * width / ENOUGH))
+    if step < 2:
+        return 1.0, colors
+    rows, columns = height // step, width // step
+    blocks = colors[: rows * step, : columns * step].reshape(rows, step, columns, step, 3)
+    return float(step), np.asarray(blocks.mean(axis=(1, 3)), dtype=np.float32)
+
+
+def to_full_size(homography: Array, scale: float) -> Homography:
+    """Carry a homography of small pixels, y down, to one of the picture's own, y up."""
+    larger = np.diag([scale, -scale, 1.0])
+    return Homography.from_matrix(larger @ homography @ np.linalg.inv(larger))
+
+
+def marks_of(areas: list[Area], lines: list[Line], plane: Plane) -> tuple[Mark, ...]:
+    """Make a mark of each area and each line, in the color of its ink on white paper."""
+    marks = []
+    for area in areas:
+        rings = tuple(Polyline(plane.points(ring), closed=True) for ring in area.rings)
+        marks.append(Mark(rings, fill=area.color, source=f"area at {place(rings[0].vertices)}"))
+    for line in lines:
+        middle = Polyline(plane.points(line.points))
+        pen = Pen(line.color, line.width * plane.scale)
+        marks.append(Mark((middle,), pen, source=f"line at {place(middle.vertices)}"))
+    return tuple(marks)
+
+
+def place(points: Array) -> str:
+    """Write where a mark is, as its file would [pixels, y down]."""
+    x, y = points.mean(axis=0)
+    return f"{x:.0f},{-y:.0f}"
+
+
+def left_out(words: NDArray[np.bool_], *, ruled: bool) -> tuple[str, ...]:
+    """Say what was not made a mark."""
+    found = []
+    if words.any():
+        found.append("words and small symbols, which a picture shows but does not tell")
+    if ruled:
+        found.append("the lines of ruled paper")
+    return tuple(found)
