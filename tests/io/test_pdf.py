@@ -113,9 +113,7 @@ def test_pages_are_chosen_by_number(tmp_path):
         read(tmp_path, *lines, number="3")
 
 
-@pytest.mark.parametrize(
-    "content", [b"", b"%PDF-1.4", b"%PDF-1.4\n" + b"\x00\xff" * 200, zlib.compress(b"a")]
-)
+@pytest.mark.parametrize("content", [b"", b"%PDF-1.4", b"%PDF-1.4\n" + b"\x00\xff" * 200])
 def test_damaged_files_are_refused_in_one_line(tmp_path, content):
     path = tmp_path / "plan.pdf"
     path.write_bytes(content)
