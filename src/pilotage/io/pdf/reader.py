@@ -12,6 +12,7 @@ import shapely
 from pilotage.errors import FileError
 from pilotage.geometry import Affine2, Array, Polyline
 from pilotage.interpretation.sheet import Color, Pen, Sheet
+from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
 from pilotage.io.pdf.clip import area_of, clipped_area, clipped_lines, contains
 from pilotage.io.pdf.document import open_page, opened, page_names
@@ -65,6 +66,7 @@ def read_pdf(path: Path, page: str | None = None) -> Sheet:
             with walk.builder.surviving("damaged words"):
                 for text in read_texts(shown, frame):
                     walk.builder.add_text(text)
+    walk.builder.marks[:] = filled_hatching(walk.builder.marks)
     scale = find_scale(text.text for text in walk.builder.texts)
     return walk.builder.build(
         page=(0.0, 0.0, width, height),
