@@ -83,6 +83,7 @@ class Walk:
     paths: int = 0
     picture_area: float = 0.0  # [points^2]
     clips: dict[bytes, shapely.Geometry] = field(default_factory=dict)
+    maps: dict[tuple[Affine2, Affine2], Affine2] = field(default_factory=dict)
 
     def read_page(self, page: "pypdfium2.PdfPage", where: Where) -> None:
         """Read all objects of a page."""
@@ -123,7 +124,7 @@ class Walk:
 
     def read_path(self, handle: Handle, where: Where, source: str) -> None:
         """Read a path, cut to its clip."""
-        shown_from_object = where.shown_from_here @ matrix_of(handle)
+        shown_from_object = self.composed(where.shown_from_here, matrix_of(handle))
         found = [
             outline_through(shown_from_object @ points, closed=closed) for points, closed in path_of(handle)
         ]
@@ -139,6 +140,13 @@ class Walk:
             self.builder.add_mark(
                 part, pen=part_pen, fill=part_fill, names=names, groups=where.groups, source=source
             )
+
+    def composed(self, shown_from_here: Affine2, here_from_object: Affine2) -> Affine2:
+        """Compose two maps, of which a page has few."""
+        key = (shown_from_here, here_from_object)
+        if key not in self.maps:
+            self.maps[key] = shown_from_here @ here_from_object
+        return self.maps[key]
 
     def clip_of(self, handle: Handle, where: Where) -> shapely.Geometry | None:
         """Return the area that an object is cut to; None if it is not cut."""
