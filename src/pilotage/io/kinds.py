@@ -47,27 +47,11 @@ SUFFIXES = {
 
 READABLE = "SVG, PDF, DXF, PNG, JPEG, Excalidraw, draw.io, GeoJSON, IMDF, OpenStreetMap and map_server YAML"
 
-MAGIC: tuple[tuple[re.Pattern[bytes], Kind | str], ...] = (
-    (
-        re.compile(
-            rb"\x89PNG\r\n|\xff\xd8\xff|GIF8[79]a|BM.{4}\0\0\0\0|II\*\0|MM\0\*|RIFF.{4}WEBP|P[1-6]\s",
-            re.DOTALL,
-        ),
-        Kind.PICTURE,
-    ),
-    (
-        re.compile(rb"AutoCAD Binary DXF|(?:\s*999\r?\n[^\n]*\n)*\s*0\s*\r?\n\s*SECTION\s*\r?\n"),
-        Kind.DXF,
-    ),
-    (re.compile(rb".{0,1024}?%PDF-", re.DOTALL), Kind.PDF),
-    (re.compile(rb"AC10\d\d|AC1\.\d|MC0\.0"), "dwg"),
-    (re.compile(rb"%!PS|\xc5\xd0\xd3\xc6"), "postscript"),
-    (re.compile(rb"\xd0\xcf\x11\xe0"), "office"),
-    (re.compile(rb".{4}ftyp(?:heic|heix|mif1)", re.DOTALL), "heic"),
-    (re.compile(rb"ISO-10303-21"), "ifc"),
+PICTURES = re.compile(
+    rb"\x89PNG\r\n|\xff\xd8\xff|GIF8[79]a|BM.{4}\0\0\0\0|II\*\0|MM\0\*|RIFF.{4}WEBP|P[1-6]\s", re.DOTALL
 )
-"""What files of a kind begin with; words name an advice."""
-
+DXF = re.compile(rb"AutoCAD Binary DXF|(?:\s*999\r?\n[^\n]*\n)*\s*0\s*\r?\n\s*SECTION\s*\r?\n")
+DWG = re.compile(rb"AC10\d\d|AC1\.\d|MC0\.0")
 ELEMENT = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?([A-Za-z_][\w.-]*)[\s/>]")
 
 ROOTS = {
@@ -122,10 +106,23 @@ def unpacked_head(packed: bytes) -> bytes:
         return b""
 
 
+SIGNATURES: tuple[tuple[re.Pattern[bytes], Kind | str], ...] = (
+    (PICTURES, Kind.PICTURE),
+    (DXF, Kind.DXF),
+    (re.compile(rb".{0,1023}%PDF-", re.DOTALL), Kind.PDF),
+    (DWG, "dwg"),
+    (re.compile(rb"%!PS|\xc5\xd0\xd3\xc6"), "postscript"),
+    (re.compile(rb"\xd0\xcf\x11\xe0"), "office"),
+    (re.compile(rb".{4}ftyp(?:heic|heix|mif1)", re.DOTALL), "heic"),
+    (re.compile(rb"ISO-10303-21"), "ifc"),
+)
+"""How files of a kind begin."""
+
+
 def kinds_of(head: bytes, path: Path) -> Iterator[Kind | str]:
     """Yield what the beginning of a file says of its kind, the surest first."""
+    yield from (kind for begins, kind in SIGNATURES if begins.match(head))
     text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-    yield from (kind for pattern, kind in MAGIC if pattern.match(head))
     if head.startswith(b"PK\x03\x04"):
         yield kind_of_archive(path)
     if text.startswith(b"<"):
