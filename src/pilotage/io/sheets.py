@@ -56,9 +56,13 @@ def read_dxf(path: Path) -> Sheet:
 
 def read_pdf(path: Path, page: str | None) -> Sheet:
     """Read a page of a PDF file, as a picture if it shows one."""
+    from pilotage.io.pdf import PicturePageError, read_picture_page
     from pilotage.io.pdf import read_pdf as read
 
-    return read(path, page)
+    try:
+        return read(path, page)
+    except PicturePageError:
+        return read_picture_page(path, page)
 
 
 def read_excalidraw(path: Path) -> Sheet:
