@@ -11,6 +11,7 @@ from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
 from pilotage.io.picture.colors import DARK, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
+from pilotage.io.picture.width import AreaWidths
 from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
@@ -43,15 +44,15 @@ class Area:
 
 
 def trace(
-    ink: Mask, flat: NDArray[np.float32], pen_width: float, width: float
+    ink: Mask, flat: NDArray[np.float32], pen_width: float, widths: AreaWidths
 ) -> tuple[list[Area], list[Line]]:
-    """Trace ink on flattened paper (height, width, 3), what is wider than a width [pixels] as areas.
+    """Trace ink on flattened paper (height, width, 3), what is wide as areas.
 
     Each color of fat ink is traced by itself.
     """
     from scipy.ndimage import distance_transform_edt
 
-    fat, grounds = fat_ink(ink, flat, width)
+    fat, grounds = fat_ink(ink, flat, widths)
     black = ink & (flat.max(axis=2) < DARK)
     thin = (ink & ~rimmed(grounds)) | (black & ~grounds)
     for color in fat:

@@ -1,5 +1,7 @@
 """How wide lines are, and from which width on ink is an area: thick walls beside thin lines."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,19 +33,28 @@ def widths_of(ink: Mask, middle: Mask) -> NDArray[np.float64]:
     return np.asarray(np.maximum(1.0, 2.0 * distance_transform_edt(ink)[middle] - 0.5))
 
 
-def least_area_width(widths: NDArray[np.float64], pen_width: float, diagonal: float) -> float:
-    """Tell from which width on ink is an area [pixels]."""
+@dataclass(frozen=True, slots=True)
+class AreaWidths:
+    """From which width on ink is an area [pixels]."""
+
+    dark: float
+    pale: float  # a blurred line is pale, and wider than it was drawn
+
+
+def area_widths(widths: NDArray[np.float64], pen_width: float, diagonal: float) -> AreaWidths:
+    """Tell areas from lines by the widths of lines (n,) [pixels]; thick dark lines beside thin are areas."""
     from skimage.filters import threshold_otsu
 
     fat = max(FAT * pen_width, LEAST_FAT * diagonal)
     lines = np.log(widths[widths <= fat])
     if not lines.size or float(np.ptp(lines)) == 0.0:
-        return fat
+        return AreaWidths(fat, fat)
     between = float(threshold_otsu(lines))
     thick, thin = lines[lines > between], lines[lines <= between]
     if min(len(thick), len(thin)) < EACH * len(lines) or np.exp(between) < THINNEST:
-        return fat
-    return float(np.exp(between)) if thick.mean() - thin.mean() > np.log(TWO_PENS) else fat
+        return AreaWidths(fat, fat)
+    two_pens = thick.mean() - thin.mean() > np.log(TWO_PENS)
+    return AreaWidths(float(np.exp(between)) if two_pens else fat, fat)
 
 
 def fat_parts(ink: Mask, width: float) -> Mask:
