@@ -25,16 +25,22 @@ def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[l
 
     Returns the colors that may be walls' and the rest.
     """
-    if not fat_parts(ink, min(widths.dark, widths.pale)).any():
+    if not np.isfinite(widths.dark):
         return [], np.zeros_like(ink)
-    dark = flat.max(axis=2) < DARK
-    colored = np.ptp(flat, axis=2) >= COLORED * (1.0 - flat.min(axis=2))
+    lightest, darkest = brightest(flat), 1.0 - brightest(1.0 - flat)
+    dark = lightest < DARK
+    colored = lightest - darkest >= COLORED * (1.0 - darkest)
     black, deep = (fat_parts(ink & dark & hue, widths.dark) for hue in (~colored, colored))
     gray, light = (fat_parts(ink & ~dark & hue, widths.pale) for hue in (~colored, colored))
     drawn = np.count_nonzero(black | gray)
     if drawn >= WALLS * (drawn + np.count_nonzero(deep | light)):
         return [gray, black], fat_parts(ink & colored, widths.dark)
     return [gray, light, black, deep], np.zeros_like(ink)
+
+
+def brightest(flat: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the brightest of the three colors of each pixel."""
+    return np.maximum(np.maximum(flat[..., 0], flat[..., 1]), flat[..., 2])
 
 
 def hue_of(color: tuple[float, float, float]) -> int:
