@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.drives import Drive, navigate
     from pilotage.errors import FileError, PilotageError, SettingsError
+    from pilotage.findings import Finding, check
     from pilotage.geometry import Affine2, Pose2, Similarity2, Twist
     from pilotage.io import open_log, open_map, open_world
     from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
@@ -26,6 +27,7 @@ __all__ = [
     "Drive",
     "Estimate",
     "FileError",
+    "Finding",
     "LaserScan",
     "Localizer",
     "LocalizerSettings",
@@ -45,6 +47,7 @@ __all__ = [
     "Step",
     "Twist",
     "World",
+    "check",
     "navigate",
     "open_log",
     "open_map",
@@ -55,6 +58,7 @@ HOMES = {
     "config": ("Settings",),
     "drives": ("Drive", "navigate"),
     "errors": ("FileError", "PilotageError", "SettingsError"),
+    "findings": ("Finding", "check"),
     "geometry": ("Affine2", "Pose2", "Similarity2", "Twist"),
     "io": ("open_log", "open_map", "open_world"),
     "localization": ("Estimate", "Localizer", "LocalizerSettings", "PoseHypothesis", "Status"),

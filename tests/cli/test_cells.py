@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from pilotage import worlds
 from pilotage.cli.cells import cells
-from pilotage.errors import PilotageError
+from pilotage.errors import FileError, PilotageError
 
 SVG = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 150 50">
 <g fill="none" stroke="black">
@@ -101,7 +101,9 @@ def test_a_drawing_without_a_room_is_refused_with_its_name(tmp_path):
 
 
 def test_only_pictures_have_a_shading(drawing):
-    assert 2 == call(drawing, "--shading", "lines").exit_code
+    assert 2 == call(drawing, "--shading", "dim").exit_code
+    with pytest.raises(FileError, match="only pictures have a shading"):
+        call(drawing, "--shading", "lines")
 
 
 def test_the_command_starts_without_the_compiler(drawing):

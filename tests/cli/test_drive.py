@@ -22,14 +22,14 @@ def ended(**changes):
 def test_a_goal_that_is_reached_is_told_with_what_it_took():
     told = story(DRIVE)
 
-    assert told.startswith("After 4 m and 0:07 minutes the robot says that it stands at the goal, in c")
+    assert told.startswith("After 4 m and 0:07 minutes the robot says that it stands at the goal, in x")
     assert told.endswith("It first claimed a place after 0:01 and touched nothing.")
 
 
 def test_a_drive_that_is_given_up_says_why():
     told = story(ended(outcome=Outcome.GAVE_UP, reason="all doors are closed", times_lost=2))
 
-    assert "the robot gave up: all doors are closed. It believes to be in c" in told
+    assert "the robot gave up: all doors are closed. It believes to be in x" in told
     assert "lost it 2 times" in told
 
 
@@ -43,7 +43,7 @@ def test_a_drawing_that_does_not_fit_is_said_and_no_place_is_claimed():
 def test_a_room_that_is_reached_is_not_called_a_point():
     told = story(replace(DRIVE, goal=replace(DRIVE.goal, name="kitchen")))
 
-    assert "the robot says that it stands in c" in told
+    assert "the robot says that it stands in x" in told
 
 
 def test_a_robot_that_never_knew_and_touched_something_says_so():

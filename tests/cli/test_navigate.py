@@ -65,7 +65,8 @@ def test_a_drive_leaves_journal_figure_and_animation(call, site):
     assert (folder / FIGURE).read_bytes().startswith(b"\x89PNG")
     with Image.open(folder / ANIMATION) as picture:
         assert 1 < picture.n_frames
-    assert progress[0].startswith("0:00   ")
+    assert "no door leads into 'shed'" in progress[0]
+    assert progress[1].startswith("0:00   ")
     assert f"See {folder}." == progress[-1]
     assert outcome.out.startswith("After ")
     assert 1 == outcome.out.count("\n")

@@ -6,12 +6,15 @@ from typing import Annotated
 import typer
 
 from pilotage.cli.cells import cells
+from pilotage.cli.check import check
 from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
 from pilotage.cli.navigate import navigate
 from pilotage.cli.perceive import perceive
+from pilotage.cli.record import record
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
+from pilotage.cli.table import table
 
 app = typer.Typer(
     name="pilotage",
@@ -43,9 +46,12 @@ def common(
 
 
 app.command()(cells)
+app.command()(check)
 app.command()(demo)
 app.command()(localize)
 app.command()(navigate)
 app.command()(perceive)
+app.command()(record)
 app.command()(settings)
 app.command()(simplify)
+app.command()(table)

@@ -1,11 +1,11 @@
 """`pilotage cells`: the rooms of a drawing, the doors between them, and a route."""
 
-from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing, tell_worst
 from pilotage.cli.places import find_place
 from pilotage.cli.terminal import check_outputs, say
 
@@ -13,20 +13,8 @@ if TYPE_CHECKING:
     from pilotage.maps import CellGraph, Route, RouteSettings, SchematicMap
 
 
-class Shading(Enum):
-    """What a picture means by its shades, as a user names it."""
-
-    RECOGNIZED = "recognized"
-    LIGHT_IS_FREE = "light-is-free"
-    DARK_IS_FREE = "dark-is-free"
-    LINES = "lines"
-
-
 def cells(
-    drawing: Annotated[
-        Path,
-        typer.Argument(metavar="MAP", help="A drawing: SVG, a picture (PNG, JPEG, PGM) or a ROS map (YAML)."),
-    ],
+    drawing: Map,
     *,
     start: Annotated[
         str | None,
@@ -43,10 +31,10 @@ def cells(
         typer.Option("-o", "--output", help="Where to write cells, gateways and route (GeoJSON)."),
     ] = None,
     figure: Annotated[Path | None, typer.Option(help="Where to draw them (.png, .svg, .pdf).")] = None,
-    shading: Annotated[
-        Shading,
-        typer.Option(help="Of a picture: whether light or dark is free space, or it shows lines of a pen."),
-    ] = Shading.RECOGNIZED,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
@@ -68,7 +56,8 @@ def cells(
     """
     check_outputs([output, figure], force=force)
     from pilotage.errors import FileError
-    from pilotage.maps import DecompositionSettings, NotEnclosedError, RouteSettings, decompose
+    from pilotage.findings import report
+    from pilotage.maps import DecompositionSettings, RouteSettings
 
     division, routing = DecompositionSettings(), RouteSettings()
     if settings is not None:
@@ -76,12 +65,14 @@ def cells(
 
         chosen = read_settings(settings)
         division, routing = chosen.localizer.atlas.decomposition, chosen.navigator.route
-    sketch = read_drawing(drawing, shading)
-    try:
-        graph = decompose(sketch, division)
-    except NotEnclosedError as error:
-        raise FileError(str(error), drawing) from error
+    opened = open_drawing(drawing, layer, label, page, shading)
+    sketch = opened.sketch
+    found = report(sketch, opened.interpretation, settings=division)
+    graph = found.graph
+    if graph is None:
+        raise FileError(found.findings[0].text, drawing)
     route = plan(sketch, graph, start, goal, routing)
+    tell_worst(drawing, found.findings)
     typer.echo(describe(graph) if route is None else describe_route(graph, route))
     if output is not None:
         from pilotage.io.geojson import write_cells
@@ -94,19 +85,6 @@ def cells(
 
         save(cells_figure(sketch, graph, route=route, title=f"Cells of {drawing.name}"), figure)
         say(f"drawn in {figure}")
-
-
-def read_drawing(drawing: Path, shading: Shading) -> "SchematicMap":
-    """Open a drawing; a picture in the way that was asked for."""
-    from pilotage.io import open_map
-
-    if shading is Shading.RECOGNIZED:
-        return open_map(drawing)
-    from pilotage.io.raster import SUFFIXES, PictureKind, read_raster
-
-    if drawing.suffix.lower() not in SUFFIXES:
-        raise typer.BadParameter(f"only pictures have a shading, not {drawing.name}", param_hint="--shading")
-    return read_raster(drawing, PictureKind[shading.name])
 
 
 def plan(

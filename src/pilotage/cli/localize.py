@@ -6,14 +6,25 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.places import parse_pose
-from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
+from pilotage.cli.run import (
+    LOG_HELP,
+    OdometryTopic,
+    ScanTopic,
+    draw,
+    estimates_sink,
+    open_localizer,
+    read_stretch,
+    run,
+    summary,
+)
 from pilotage.cli.terminal import check_outputs, keeping, say
 
 
 def localize(
-    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
+    drawing: Map,
+    log: Annotated[Path, typer.Argument(metavar="LOG", help=LOG_HELP)],
     *,
     output: Annotated[
         Path | None,
@@ -37,7 +48,13 @@ def localize(
     ] = None,
     scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    scan_topic: ScanTopic = None,
+    odometry_topic: OdometryTopic = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """Tell for every scan of a log where on the drawing the robot was.
@@ -56,12 +73,11 @@ def localize(
     check_outputs([output, figure], force=force)
     if scale is not None and not (math.isfinite(scale) and scale > 0.0):
         raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
-    from pilotage.io import open_map
-
-    sketch = open_map(drawing)
+    sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
-    readings = read_stretch(log, first, last)
+    readings = read_stretch(log, first, last, scan_topic, odometry_topic)
     localizer = open_localizer(sketch, settings, seed, known, scale)
+    tell_worst(drawing, findings_of(sketch, settings))
     with estimates_sink(output, sketch) as write:
         estimates = run(localizer, readings, write)
     if figure is not None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
 from pilotage.cli.exits import signals_held
 from pilotage.cli.places import finite_numbers, parse_pose
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def navigate(
-    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG, a picture or a ROS map.")],
+    drawing: Map,
     *,
     world: Annotated[
         Path, typer.Option(help="The true building to drive in: SVG in metres, or a ROS map (YAML).")
@@ -56,6 +57,10 @@ def navigate(
             metavar="SECONDS", help="Simulated time after which it gives up.", show_default="as in settings"
         ),
     ] = None,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     output: Annotated[
         Path | None,
@@ -87,9 +92,9 @@ def navigate(
     """
     check_positive(scale, "--scale")
     check_positive(time_limit, "--time-limit")
-    from pilotage.io import open_map, open_world
+    from pilotage.io import open_world
 
-    sketch = open_map(drawing)
+    sketch = open_drawing(drawing, layer, label, page, shading).sketch
     building = open_world(world)
     target = goal_on(sketch, goal)
     known = start_on(sketch, start)
@@ -115,6 +120,7 @@ def navigate(
             raise FileError(str(error), drawing) from error
         except StartError as error:
             raise FileError(str(error), world) from error
+    tell_worst(drawing, findings_of(sketch, settings))
     if output is not None:
         make_folder(output, force=force)
     recorded = drive_and_record(building, navigator, simulator, output)

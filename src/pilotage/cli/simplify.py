@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.terminal import check_outputs, say
 
 SHARE = 0.0025
@@ -13,7 +14,7 @@ SHARE = 0.0025
 
 
 def simplify(
-    drawing: Annotated[Path, typer.Argument(metavar="MAP", help="A drawing: SVG or a picture.")],
+    drawing: Map,
     *,
     share: Annotated[
         float | None,
@@ -26,6 +27,10 @@ def simplify(
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw it before and after (.png, .svg, .pdf).")
     ] = None,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
@@ -36,7 +41,6 @@ def simplify(
     **Example:** `pilotage simplify office.svg --figure evolution.png`
     """
     check_outputs([figure], force=force)
-    from pilotage.io import open_map
     from pilotage.shape import Simplification, simplify_all
 
     if share is None and settings is not None:
@@ -46,7 +50,7 @@ def simplify(
     share = SHARE if share is None else share
     if not math.isfinite(share):
         raise typer.BadParameter(f"a share must be finite, got {share}", param_hint="--share")
-    sketch = open_map(drawing)
+    sketch = open_drawing(drawing, layer, label, page, shading).sketch
     evolved = simplify_all(sketch.strokes, Simplification(share * sketch.diagonal))
     before, after = (sum(len(stroke) for stroke in strokes) for strokes in (sketch.strokes, evolved))
     typer.echo(f"{len(sketch.strokes)} strokes, {before} vertices; after evolution {after}")

@@ -101,11 +101,10 @@ def draw_route(axes: Axes, route: Route) -> None:
 
 
 def draw_names(axes: Axes, graph: CellGraph, points_a_unit: float, route: Route | None) -> None:
-    """Write into each cell its id and its label, below the start or goal if that stands there."""
+    """Write into each cell its label, else its id, below the start or goal if that stands there."""
     marks = np.empty((0, 2)) if route is None else route.way[[0, -1]]
     for cell in graph.cells:
-        words = cell.label.split(", ") if cell.label else []
-        lines = [cell.cell_id, *words]
+        lines = cell.label.split(", ") if cell.label else [cell.cell_id]
         room = 2.0 * float(cell.polygon.boundary.distance(cell.polygon.centroid)) if not cell.holes else 0.0
         width = max(room, np.sqrt(cell.polygon.area) / 2.0) * points_a_unit * NAME_SHARE
         size = np.clip(width / (GLYPH_WIDTH * max(map(len, lines))), LEAST_TEXT, MOST_TEXT)

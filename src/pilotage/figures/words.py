@@ -18,9 +18,12 @@ def clock(seconds: float) -> str:
 
 
 def name_cell(cell_id: str, graph: CellGraph | None) -> str:
-    """Name a cell with the words that stand in it, if any do."""
+    """Name a cell by its label, with its id if another cell has the same label; else by its id."""
     label = graph.cell(cell_id).label if graph is not None and cell_id else ""
-    return f"{cell_id} ({label})" if label else cell_id
+    if graph is None or not label:
+        return cell_id
+    is_one = sum(cell.label == label for cell in graph.cells) == 1
+    return label if is_one else f"{label} ({cell_id})"
 
 
 def describe(step: Step, seconds: float, graph: CellGraph | None) -> str:

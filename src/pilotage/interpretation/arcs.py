@@ -52,7 +52,9 @@ def find_arcs(line: Polyline) -> Iterator[Arc]:
     joined = (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4) & (ratio < BOW * BOW)
     first = 0
     for k in range(len(turns) + 1):
-        breaks = k == len(turns) or not joined[k] or (k > first and np.sign(turns[k]) != np.sign(turns[first]))
+        breaks = (
+            k == len(turns) or not joined[k] or (k > first and np.sign(turns[k]) != np.sign(turns[first]))
+        )
         if breaks:
             if k - first + 1 >= LEAST_CHORDS:
                 arc = fitted(points[first : k + 2])

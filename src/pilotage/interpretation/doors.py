@@ -89,7 +89,9 @@ def segments_of(seen: Sequence[Seen]) -> Segments:
     """Take all lines and borders of areas apart."""
     ends, owners = [np.empty((0, 2, 2))], [np.empty(0, dtype=np.int64)]
     for place, mark in enumerate(seen):
-        for part in parts_of(shapely.union(mark.line, shapely.boundary(mark.area)) if not mark.area.is_empty else mark.line):
+        for part in parts_of(
+            shapely.union(mark.line, shapely.boundary(mark.area)) if not mark.area.is_empty else mark.line
+        ):
             points = shapely.get_coordinates(part)
             if len(points) > 1:
                 ends.append(np.stack([points[:-1], points[1:]], axis=1))
@@ -148,16 +150,22 @@ def judge(arc: Arc, marks: tuple[int, ...], segments: Segments) -> tuple[NDArray
         along = (end - arc.center) / arc.radius
         leaves[k] = has_leaf(arc, end, segments)
         for point in (end + BESIDE * along * arc.radius, arc.center - BESIDE * along * arc.radius):
-            near = segments.tree.query(shapely.Point(point), predicate="dwithin", distance=SLACK * 1.5 * arc.radius)
+            near = segments.tree.query(
+                shapely.Point(point), predicate="dwithin", distance=SLACK * 1.5 * arc.radius
+            )
             walls[k] += bool(np.isin(segments.owners[near], marks, invert=True).any() or len(near) > 0)
     return leaves, walls
 
 
 def has_leaf(arc: Arc, end: Array, segments: Segments) -> bool:
     """Tell whether a segment of the right length runs along the spoke to one end of an arc."""
-    spoke = shapely.buffer(shapely.LineString([arc.center, end]), SLACK * 1.5 * arc.radius, cap_style="square")
+    spoke = shapely.buffer(
+        shapely.LineString([arc.center, end]), SLACK * 1.5 * arc.radius, cap_style="square"
+    )
     near = segments.tree.query(spoke, predicate="contains")
-    near = near[(segments.lengths[near] >= LEAF[0] * arc.radius) & (segments.lengths[near] <= LEAF[1] * arc.radius)]
+    near = near[
+        (segments.lengths[near] >= LEAF[0] * arc.radius) & (segments.lengths[near] <= LEAF[1] * arc.radius)
+    ]
     return len(near) > 0
 
 
@@ -175,7 +183,8 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
             if place in door.marks:
                 track = shapely.LineString(door.arc.vertices)
                 narrow, wide = (
-                    shapely.buffer(track, share * door.width, cap_style="square") for share in (SLACK / 2.0, TWINS)
+                    shapely.buffer(track, share * door.width, cap_style="square")
+                    for share in (SLACK / 2.0, TWINS)
                 )
                 line, area = shapely.difference(line, narrow), shapely.difference(area, wide)
             line = without_leaf(line, door)
@@ -203,5 +212,10 @@ def without_leaf(line: shapely.Geometry, door: Door) -> shapely.Geometry:
             continue
         cut = np.where(crossed, shapely.difference(segments, door.opening), segments)
         kept.append(shapely.line_merge(shapely.union_all(cut[~inner])))
-    pieces = [piece for part in kept for piece in parts_of(part) if piece.geom_type == "LineString" and not piece.is_empty]
+    pieces = [
+        piece
+        for part in kept
+        for piece in parts_of(part)
+        if piece.geom_type == "LineString" and not piece.is_empty
+    ]
     return shapely.multilinestrings(pieces) if pieces else NOTHING

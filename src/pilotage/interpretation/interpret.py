@@ -70,7 +70,9 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
     drawn = [number for place, number in enumerate(drawn) if place not in glyphs]
     seen = look_at(sheet, drawn, paper.ground, diagonal)
-    guessed = {mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))}
+    guessed = {
+        mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))
+    }
     doors = find_doors(sheet, seen, diagonal)
     seen = without_doors(seen, doors)
     seen = [mark for mark in seen if guessed.get(mark.number) not in NO_WALLS]

@@ -102,7 +102,8 @@ def polylines_of(shape: shapely.Geometry) -> list[Polyline]:
     return [
         Polyline(coordinates[:-1], closed=True) if is_ring(coordinates) else Polyline(coordinates)
         for line in parts_of(lines)
-        if line.geom_type in ("LineString", "LinearRing") and len(coordinates := shapely.get_coordinates(line)) > 1
+        if line.geom_type in ("LineString", "LinearRing")
+        and len(coordinates := shapely.get_coordinates(line)) > 1
     ]
 
 

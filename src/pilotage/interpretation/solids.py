@@ -108,7 +108,9 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
     offset = ends[second].mean(axis=1) - ends[first, 0]
     apart = np.abs(along[first, 0] * offset[:, 1] - along[first, 1] * offset[:, 0])
     reach = np.einsum("kij,kj->ki", ends[second] - ends[first, :1], along[first])
-    common = np.clip(np.minimum(reach.max(axis=1), lengths[first]) - np.maximum(reach.min(axis=1), 0.0), 0.0, None)
+    common = np.clip(
+        np.minimum(reach.max(axis=1), lengths[first]) - np.maximum(reach.min(axis=1), 0.0), 0.0, None
+    )
     pairs = (first != second) & (turned < np.sin(PARALLEL)) & (apart >= PAIR[0] * diagonal) & (common > 0.0)
     pairs &= apart <= PAIR[1] * diagonal
     if not pairs.any():
@@ -149,9 +151,16 @@ def enclosed(shape: shapely.Geometry, gap: float) -> float:
     """Measure the area that a shape encloses once gaps are closed."""
     grown = shapely.buffer(shape, gap / 2.0, quad_segs=2)
     rings: NDArray[np.object_] = np.array(
-        [shapely.Polygon(ring) for part in parts_of(grown) if part.geom_type == "Polygon" for ring in part.interiors]
+        [
+            shapely.Polygon(ring)
+            for part in parts_of(grown)
+            if part.geom_type == "Polygon"
+            for ring in part.interiors
+        ]
     )
-    return float(shapely.area(shapely.buffer(shapely.union_all(rings), gap / 2.0)).sum()) if len(rings) else 0.0
+    return (
+        float(shapely.area(shapely.buffer(shapely.union_all(rings), gap / 2.0)).sum()) if len(rings) else 0.0
+    )
 
 
 def are_walls(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> bool:

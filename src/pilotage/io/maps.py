@@ -1,27 +1,121 @@
 """Open a drawing of any kind that can be read."""
 
 import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from pilotage.errors import FileError
-from pilotage.interpretation import NoWallsError, interpret
-from pilotage.io.raster import SUFFIXES, read_map_server, read_raster
-from pilotage.io.svg import read_svg_sheet
-from pilotage.maps import SchematicMap
+from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
+from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
+from pilotage.io.kinds import Kind, recognize
+from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet_or_plan, sheet_or_plan
+from pilotage.io.sheets import read_sheet, split_page
+from pilotage.maps import Label, SchematicMap
+
+KINDS = {shading: PictureKind[shading.name] for shading in Shading}
 
 
-def open_map(path: str | os.PathLike[str]) -> SchematicMap:
-    """Read a drawing: SVG (also gzipped), a picture (PNG, PGM, JPEG, ...) or a ROS map_server YAML file.
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """A drawing that was opened, and how its marks were understood."""
 
-    Raises FileError if the file is missing, of another kind, or shows no stroke.
+    sketch: SchematicMap
+    interpretation: Interpretation | None = None  # None: a picture that was read by its free space
+    remarks: tuple[str, ...] = ()  # what was assumed, in words
+
+
+def open_map(
+    path: str | os.PathLike[str],
+    *,
+    layers: Mapping[str, str] | None = None,
+    labels: Mapping[str, Sequence[float]] | None = None,
+    page: str | int | None = None,
+    shading: str = "recognized",
+) -> SchematicMap:
+    """Read a drawing: SVG, PDF, DXF, a picture, Excalidraw, draw.io, an indoor map or a map_server file.
+
+    The rest is for where guessing fails, and wins over the table beside the file (`office.svg.toml`):
+    `layers` tells what the marks of a layer, class, id or block are, as in `{"A-FURN": "ignore"}`; `labels`
+    names rooms at points in the file's own axes; `page` is the number or name of one of several pages or the
+    name of a level, which `plan.pdf#2` names, too; `shading` is of a picture.
+
+    Raises FileError if the file is missing, of another kind, or shows no stroke, ValueError if a hint is
+    invalid.
     """
-    file = Path(path)
-    suffix = file.suffix.lower()
-    if suffix in SUFFIXES:
-        return read_raster(file)
-    if suffix in (".yaml", ".yml"):
-        return read_map_server(file)
+    hints = DrawingHints(
+        {name: role_of(name, role) for name, role in (layers or {}).items()},
+        tuple((name, (float(x), float(y))) for name, (x, y) in (labels or {}).items()),
+        None if page is None else str(page),
+        shading_of(shading),
+    )
+    return open_drawing(Path(path), hints).sketch
+
+
+def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
+    """Read a drawing with what a person says about it, here and in the table beside the file."""
+    hints, remarks = hints or DrawingHints(), []
+    table = table_beside(split_page(file)[0])
+    if table.is_file():
+        hints = hints.over(read_hints(table))
+        remarks.append(f"hints are taken from {table.name}")
+    sketch, interpretation = read_drawing(file, hints)
+    if interpretation is not None:
+        remarks += [*interpretation.assumptions, *unknown_layers(interpretation, hints.layers)]
+    elif hints.layers:
+        remarks.append("a picture has no layers")
+    labels = tuple(
+        Label(name, (float(x), float(y)))
+        for name, point in hints.labels
+        for x, y in sketch.sketch_from_file(np.array([point], dtype=np.float64))
+    )
+    return Drawing(replace(sketch, labels=labels + sketch.labels), interpretation, tuple(remarks))
+
+
+def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation | None]:
+    """Read a drawing by the reader of its kind, and understand its marks if it has any."""
+    file, page = split_page(file, hints.page)
+    kind = recognize(file)
+    if kind is Kind.PICTURE:
+        seen = read_sheet_or_plan(file, KINDS[hints.shading])
+        return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
+    if kind is Kind.PDF:
+        return read_pdf_page(file, page, hints)
+    if hints.shading is not Shading.RECOGNIZED:
+        raise FileError(f"only pictures have a shading, {hints.shading.value} is asked for", file)
+    if kind is Kind.MAP_SERVER:
+        return read_map_server(file), None
+    return understood(read_sheet(file, page), file, hints)
+
+
+def read_pdf_page(
+    file: Path, page: str | None, hints: DrawingHints
+) -> tuple[SchematicMap, Interpretation | None]:
+    """Read a page of a PDF file; one that is a picture is read as such, in pixels."""
+    from pilotage.io.pdf import PicturePageError, page_picture
+
     try:
-        return interpret(read_svg_sheet(file)).sketch
+        return understood(read_sheet(file, page), file, hints)
+    except PicturePageError:
+        colors = np.asarray(page_picture(file, page) / 255.0, dtype=np.float32)
+        seen = sheet_or_plan(Picture(colors), KINDS[hints.shading], file)
+    return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
+
+
+def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation]:
+    """Give the marks of a sheet a meaning."""
+    try:
+        interpretation = interpret(sheet, Hints(hints.layers))
     except NoWallsError as error:
         raise FileError(str(error), file) from error
+    return interpretation.sketch, interpretation
+
+
+def unknown_layers(interpretation: Interpretation, layers: Mapping[str, Role]) -> list[str]:
+    """Tell which of the layers that a person named are nowhere in the drawing."""
+    sheet = interpretation.sheet
+    named = [mark.names for mark in sheet.marks] + [text.names for text in sheet.texts]
+    known = {name for names in named for name in names}
+    return [f"nothing in the drawing is named {name!r}" for name in layers if name not in known]

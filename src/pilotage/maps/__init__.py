@@ -1,7 +1,7 @@
 """From the drawing to places (Wolter 2001, sections 2.2 and 4.1)."""
 
 from pilotage.maps.atlas import Atlas, AtlasSettings, build_atlas
-from pilotage.maps.cells.decomposition import decompose
+from pilotage.maps.cells.decomposition import Division, NoDoorsError, decompose, divide
 from pilotage.maps.cells.free_space import DecompositionSettings, FreeSpace, NotEnclosedError, free_space
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway, Neighbor
 from pilotage.maps.file_axes import FileAxes
@@ -17,11 +17,13 @@ __all__ = [
     "CellGraph",
     "CellSize",
     "DecompositionSettings",
+    "Division",
     "FileAxes",
     "FreeSpace",
     "Gateway",
     "Label",
     "Neighbor",
+    "NoDoorsError",
     "NotEnclosedError",
     "RangeTable",
     "RangeTableSettings",
@@ -34,6 +36,7 @@ __all__ = [
     "check_place",
     "check_reachable",
     "decompose",
+    "divide",
     "find_labeled",
     "find_route",
     "free_space",

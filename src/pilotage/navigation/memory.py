@@ -69,6 +69,11 @@ class Memory:
             return after_stall(memory, plan, stamp)
         return memory
 
+    def for_new_goal(self, stamp: float) -> "Memory":
+        """Begin anew at a time [s], but keep what was found blocked."""
+        fresh = replace(self, began=stamp, stall=StallDetector(), arrival=Arrival(), detours=0)
+        return replace(fresh, detour_until=-math.inf, mismatch_since=math.inf)
+
     def with_blocked(self, blocked: BlockedGateways) -> "Memory":
         """Replace the blocked gateways."""
         return replace(self, blocked=blocked)

@@ -66,6 +66,16 @@ class Navigator:
             self.plan = make_plan(situation)
         return self._report(scan, *self._command(scan))
 
+    def set_goal(self, goal: Point | str) -> None:
+        """Drive elsewhere from now on; what is believed and what was found blocked is kept.
+
+        Raises as the constructor does, and then the old goal stays.
+        """
+        self.planner = RoutePlanner(self.position.localizer.atlas, goal, self.settings.route)
+        if self.memory is not None:
+            self.memory = self.memory.for_new_goal(max(self.plan.stamp, self.memory.began))
+        self.plan = Plan(Behavior.LOOK_AROUND)
+
     def _is_due(self, stamp: float, memory: Memory) -> bool:
         """Tell whether to plan now; not at a scan that the localizer got, if that can wait."""
         waited = stamp - self.plan.stamp

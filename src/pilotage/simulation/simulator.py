@@ -56,11 +56,7 @@ class Simulator:
         rng: np.random.Generator,
         settings: SimulatorSettings = SimulatorSettings(),
     ) -> None:
-        if not world.is_free([start.position], settings.body.radius)[0]:
-            raise StartError(
-                f"a start must leave {settings.body.radius} m around it free,"
-                f" got ({start.x:.2f}, {start.y:.2f}), which is in or at a wall"
-            )
+        check_standing(world, start, settings.body.radius)
         self.world = world
         self.settings = settings
         self.world_from_base = start
@@ -101,6 +97,22 @@ class Simulator:
         self._move()
         self._steps += 1
         self._traffic.step(self.stamp, self.settings.time_step, self.world_from_base.position)
+        self._reading = None
+
+    def carry(self, world_from_base: Pose2) -> None:
+        """Put the robot elsewhere, unseen by its wheels; StartError if it cannot stand there."""
+        check_standing(self.world, world_from_base, self.settings.body.radius)
+        self.world_from_base, self.twist = world_from_base, Twist(0.0, 0.0)
+        self._touching, self._reading = False, None
+
+    def rebuild(self, world: World) -> None:
+        """Change the world around the robot: people walk on, others join; doors follow their schedules.
+
+        Raises StartError if something would stand where the robot is.
+        """
+        check_standing(world, self.world_from_base, self.settings.body.radius)
+        self.world = world
+        self._traffic.change(world, self.stamp, self.world_from_base.position)
         self._reading = None
 
     def read(self) -> Reading:
@@ -161,3 +173,12 @@ class Simulator:
         doors = min((float(distance_to_segment(x, y, door)) for door in self.closed_doors), default=reach)
         people = np.hypot(*(self.people - where).T) - self._traffic.movers.people[:, 2]
         return min(walls, doors, float(people.min(initial=reach))) - self.settings.body.radius
+
+
+def check_standing(world: World, world_from_base: Pose2, radius: float) -> None:
+    """Reject a place where a robot of this radius [m] would stand in a wall."""
+    if not world.is_free([world_from_base.position], radius)[0]:
+        raise StartError(
+            f"a start must leave {radius} m around it free,"
+            f" got ({world_from_base.x:.2f}, {world_from_base.y:.2f}), which is in or at a wall"
+        )

@@ -15,15 +15,22 @@ class Traffic:
     """People and doors as they move; `movers` is where they are now."""
 
     def __init__(self, world: World, rng: np.random.Generator, robot: Array, robot_radius: float) -> None:
-        self._doors = tuple(door for door in world.doors if door.closed)
+        self._rng = rng
         self._robot_radius = robot_radius
-        walker_rngs = rng.spawn(len(world.people))
-        self._walkers = tuple(
-            Walker(person, walker_rng, robot, robot_radius)
-            for person, walker_rng in zip(world.people, walker_rngs, strict=True)
-        )
+        self._walkers: tuple[Walker, ...] = ()
+        self.change(world, 0.0, robot)
+
+    def change(self, world: World, stamp: float, robot: Array) -> None:
+        """Take the doors of another world, and let those people join who are not there yet."""
+        self._doors = tuple(door for door in world.doors if door.closed)
         self._is_closed = [False] * len(self._doors)
-        self._close_doors(0.0, robot)
+        joining = world.people[len(self._walkers) :]
+        walkers = (
+            Walker(person, walker_rng, robot, self._robot_radius)
+            for person, walker_rng in zip(joining, self._rng.spawn(len(joining)), strict=True)
+        )
+        self._walkers = (*self._walkers, *walkers)
+        self._close_doors(stamp, robot)
         self.movers = self._seen()
 
     def step(self, stamp: float, time_step: float, robot: Array) -> None:

@@ -1,13 +1,22 @@
 """Divide a drawing into cells (Wolter 2001, section 4.1)."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.maps.cells.enclosure import drop_outdoors
-from pilotage.maps.cells.free_space import DecompositionSettings, free_space
+from pilotage.maps.cells.free_space import (
+    DecompositionSettings,
+    FreeSpace,
+    NotEnclosedError,
+    free_space,
+)
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
+from pilotage.maps.cells.identity import identify
 from pilotage.maps.cells.merging import drop_small, join_thresholds, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
@@ -15,9 +24,31 @@ from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 SMALL, LARGE = 0.7, 1.4
 """A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
 
+NO_DOORS = "a drawing must show rooms with doors, this one has none: a door is a gap in a wall"
+
+
+class NoDoorsError(NotEnclosedError):
+    """A drawing encloses rooms, but none has a door."""
+
+
+@dataclass(frozen=True, eq=False)
+class Division:
+    """A drawing's free space, and the cells that it was divided into."""
+
+    space: FreeSpace
+    graph: CellGraph
+
 
 def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGraph:
     """Divide the free space of a drawing into cells, the largest first.
+
+    Raises NotEnclosedError if nothing is enclosed.
+    """
+    return divide(sketch, settings).graph
+
+
+def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
+    """Find the free space of a drawing and divide it into cells, the largest first.
 
     Free space is cut wherever clearance has a minimum along its Voronoi diagram, or begins to widen; the
     pieces are merged across all openings that do not separate them. Cells do not overlap; what they leave
@@ -29,11 +60,14 @@ def decompose(sketch: SchematicMap, settings: DecompositionSettings) -> CellGrap
         regions = join_thresholds(space.tessellation, regions)
     regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, settings.min_cell_area)
+    if not (regions >= 0).any():
+        raise NoDoorsError(NO_DOORS)
     numbers, polygons = outlines(space.tessellation, regions)
-    cells = name_cells(polygons, sketch.labels)
-    id_of = dict(zip(numbers, (cell.cell_id for cell in cells), strict=True))
-    points = np.vstack([stroke.vertices for stroke in sketch.strokes])
-    return CellGraph(cells, find_gateways(space.tessellation, regions, id_of), diameter_of(points))
+    diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
+    words = words_in(polygons, sketch.labels)
+    ids = identify(polygons, words, diameter, sketch.file_axes)
+    gateways = find_gateways(space.tessellation, regions, dict(zip(numbers, ids, strict=True)))
+    return Division(space, CellGraph(new_cells(polygons, ids, words), gateways, diameter))
 
 
 def outlines(
@@ -52,15 +86,15 @@ def largest_part(shape: shapely.Geometry) -> shapely.Polygon:
     return max(shapely.get_parts(shape), key=lambda part: float(part.area))
 
 
-def name_cells(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> tuple[Cell, ...]:
-    """Give each cell its id, size and label."""
+def new_cells(
+    polygons: Sequence[shapely.Polygon], ids: Sequence[str], words: Sequence[Sequence[str]]
+) -> tuple[Cell, ...]:
+    """Make cells of polygons, each with its id, size and label."""
     lengths = [float(polygon.exterior.length) for polygon in polygons]
     median = float(np.median(lengths)) if lengths else 0.0
-    digits = len(str(len(polygons)))
-    words = words_in(polygons, labels)
     return tuple(
         Cell(
-            f"c{number + 1:0{digits}}",
+            ids[number],
             vertices_of(polygon.exterior),
             size_of(lengths[number] / median),
             ", ".join(words[number]),

@@ -1,7 +1,7 @@
 """Find free space in a drawing: what its walls enclose, small gaps closed (Wolter 2001, section 4.1)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import rustworkx
@@ -52,6 +52,7 @@ class FreeSpace:
     tessellation: Tessellation  # no chord is narrower than a gap
     inside: NDArray[np.bool_]  # (p,)
     outside: NDArray[np.bool_]  # (p,) what is neither is solid
+    gaps: Array = field(default_factory=lambda: np.empty((0, 2, 2)))  # (n, 2, 2) too narrow, closed
 
     @property
     def region(self) -> shapely.Geometry:
@@ -121,10 +122,11 @@ def within_strokes(
     """Take what strokes enclose, with openings to the outside and gaps closed."""
     walls = segments_of(strokes)
     framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
-    closed = framed.with_chords(framed.widths >= settings.gap * diameter)
+    is_open = framed.widths >= settings.gap * diameter
+    closed = framed.with_chords(is_open)
     outside = find_outside(closed, settings.outer_opening * diameter)
     slits = closed.reaches < settings.gap * diameter
-    return FreeSpace(closed, ~outside & ~slits, outside)
+    return FreeSpace(closed, ~outside & ~slits, outside, framed.chords[~is_open])
 
 
 def frame_around(walls: Array, margin: float) -> Array:

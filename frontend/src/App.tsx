@@ -1,0 +1,347 @@
+// The page: the sheet with what is understood of it, or a drive on it.
+import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
+import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { ApiError, listDrawings, loadDrawing, loadExample } from "./api";
+import { Dialog, MeasureDialog } from "./Dialog";
+import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapAt, wallAt, type Gap } from "./doors";
+import { DriveControls } from "./DriveControls";
+import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
+import { DriveView, type Fate } from "./DriveView";
+import { FileMenu, NameField, Welcome, type Opening } from "./Files";
+import { openContent } from "./opening";
+import { cellAt, Findings, Overlay, toScene, type View } from "./Overlay";
+import { COLOR, goalOf, newGoal, newMeasure, newStart, roleOf, scaleOf, startOf, type Element } from "./scene";
+import { drawingToSvg, sceneText } from "./svg";
+import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
+import type { Cell, Mend, Point } from "./types";
+import { useAutosave } from "./useAutosave";
+import { useDrive } from "./useDrive";
+import { useUnderstanding } from "./useUnderstanding";
+
+type Style = keyof typeof COLOR;
+const STYLES: Style[] = ["wall", "furniture", "ignore"];
+const GOAL_SIZE = 24;
+const START_LENGTH = 50; // of a start arrow that was only clicked [scene units]
+const NOTICE_MS = 6000;
+
+export function App() {
+  const [editor, setEditor] = useState<ExcalidrawImperativeAPI | null>(null);
+  const [revision, setRevision] = useState(0);
+  const [view, setView] = useState<View>({ scrollX: 0, scrollY: 0, zoom: 1 });
+  const [tool, setTool] = useState<Tool>("none");
+  const [style, setStyle] = useState<Style>("wall");
+  const [hovered, setHovered] = useState<Cell | undefined>();
+  const [preview, setPreview] = useState<Point[]>([]);
+  const [ends, setEnds] = useState<Point[]>([]);
+  const [measuring, setMeasuring] = useState<Gap | null>(null);
+  const [driving, setDriving] = useState(false);
+  const [choice, setChoice] = useState(FIRST_CHOICE);
+  const [goalName, setGoalName] = useState("");
+  const [fate, setFate] = useState<Fate>("none");
+  const [welcome, setWelcome] = useState(!location.hash.includes("drawing="));
+  const [notice, setNotice] = useState("");
+  const version = useRef(0);
+  const { drive, begin, resume, send, leave } = useDrive();
+
+  const elements = useCallback(() => (editor?.getSceneElements() ?? []) as readonly Element[], [editor]);
+  const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
+  const plain = useCallback(() => drawingToSvg(elements(), null), [elements]);
+  const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
+  const save = useAutosave(whole, revision, freeName);
+  const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
+  const { told, error } = useUnderstanding(plain, revision, routeEnds);
+
+  const tell = useCallback((text: string) => setNotice(text), []);
+  useEffect(() => {
+    if (!notice) return;
+    const timer = setTimeout(() => setNotice(""), NOTICE_MS);
+    return () => clearTimeout(timer);
+  }, [notice]);
+
+  // The address remembers drawing and drive, so that a reload goes on with both.
+  const session = drive?.session?.session;
+  useEffect(() => {
+    const hash = new URLSearchParams();
+    if (save.document.name) hash.set("drawing", save.document.name);
+    if (session && driving) hash.set("session", session);
+    if (editor && (save.document.name || session)) history.replaceState(null, "", `#${hash}`);
+  }, [editor, save.document.name, session, driving]);
+
+  const changed = useCallback((all: readonly Element[], state: Pick<AppState, "scrollX" | "scrollY" | "zoom">) => {
+    const { scrollX, scrollY, zoom } = state;
+    setView((before) => (before.scrollX === scrollX && before.scrollY === scrollY && before.zoom === zoom.value ? before : { scrollX, scrollY, zoom: zoom.value }));
+    const sum = all.reduce((total, one) => (total * 31 + one.versionNonce + (one.isDeleted ? 1 : 0)) % 9007199254, all.length);
+    if (sum === version.current) return;
+    version.current = sum;
+    performance.mark("stroke");
+    setRevision((before) => before + 1);
+    if (all.some((one) => !one.isDeleted)) setWelcome(false);
+  }, []);
+
+  const put = useCallback((next: Element[]) => {
+    editor?.updateScene({ elements: next, captureUpdate: CaptureUpdateAction.IMMEDIATELY });
+  }, [editor]);
+
+  const show = useCallback((shown: { elements: Element[]; files: Record<string, BinaryFileData> }) => {
+    if (!editor) return;
+    editor.addFiles(Object.values(shown.files));
+    editor.updateScene({ elements: restoreElements(shown.elements, null), captureUpdate: CaptureUpdateAction.NEVER });
+    editor.history.clear();
+    if (shown.elements.length) editor.scrollToContent(undefined, { fitToViewport: true, viewportZoomFactor: 0.8 });
+    setEnds([]);
+    setHovered(undefined);
+    setGoalName("");
+  }, [editor]);
+
+  const openBlob = useCallback(async (name: string, content: Blob, title: string) => {
+    const opened = await openContent(name, content);
+    show(opened);
+    save.adopt({ name: "", base: stem(title), tag: null }, whole());
+    if (opened.notes.length) tell(opened.notes.join("; "));
+  }, [save, show, tell, whole]);
+
+  const openNamed = useCallback(async (name: string) => {
+    const { text, tag } = await loadDrawing(name);
+    const opened = await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }));
+    show(opened);
+    const own = text.includes("drawing-table-scene");
+    save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());
+    if (!own) tell(`${name} stays as it is; what you change is saved as a copy`);
+  }, [save, show, tell, whole]);
+
+  const guarded = useCallback((action: () => Promise<void>) => {
+    save.saveNow().then(action).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
+  }, [save, tell]);
+
+  const opening: Opening = {
+    openDrawing: (name) => guarded(() => openNamed(name)),
+    openExample: (name) => guarded(async () => openBlob(name.endsWith(".svg") ? name.split("/").at(-1)! : "example.svg", new Blob([await loadExample(name)], { type: "image/svg+xml" }), name)),
+    openFile: (file) => guarded(() => openBlob(file.name, file, file.name)),
+    openEmpty: () => guarded(async () => {
+      show({ elements: [], files: {} });
+      save.adopt({ name: "", base: "drawing", tag: null }, whole());
+      editor?.setActiveTool({ type: "freedraw" });
+    }),
+  };
+
+  // Once, when the editor is ready: go on with what the address names.
+  const began = useRef(false);
+  useEffect(() => {
+    if (!editor || began.current) return;
+    began.current = true;
+    performance.mark("ready");
+    document.body.dataset.ready = "yes";
+    const hash = new URLSearchParams(location.hash.slice(1));
+    const [name, id] = [hash.get("drawing"), hash.get("session")];
+    if (name) guarded(() => openNamed(name));
+    if (id) {
+      setDriving(true);
+      setWelcome(false);
+      resume(id);
+    }
+  }, [editor, guarded, openNamed, resume]);
+
+  const gaps = useMemo(() => (told?.gateways ?? []).map((one) => one.segment as Gap), [told]);
+  const scale = scaleOf(elements());
+
+  /** Where the door tool would put a door, and the door it moves there. */
+  const doorOf = (from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap | null } | null => {
+    const width = doorWidth(elements(), gaps, scale);
+    const moved = isClick ? null : gapAt(elements(), from, width, view.zoom);
+    if (moved) return { door: draggedDoor(moved, from, to), moved };
+    const wall = wallAt(elements(), from, view.zoom);
+    if (!wall) return null;
+    return { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: null };
+  };
+
+  const useTool = (from: Point, to: Point, isClick: boolean) => {
+    setPreview([]);
+    if (tool === "door") {
+      const found = doorOf(from, to, isClick);
+      if (!found) return tell("there is no wall here to cut a door into");
+      const { door, moved } = found;
+      put(cutDoor(moved ? closeGap(elements(), moved) : elements(), door));
+    } else if (tool === "goal") {
+      put([...elements().filter((one) => roleOf(one) !== "goal"), newGoal(to, GOAL_SIZE)]);
+      setGoalName("");
+      choose("none");
+    } else if (tool === "start") {
+      const tip: Point = isClick ? [from[0] + START_LENGTH, from[1]] : to;
+      put([...elements().filter((one) => roleOf(one) !== "start"), newStart(from, tip)]);
+      choose("none");
+    } else if (tool === "measure" && !isClick) {
+      setMeasuring([from, to]);
+    } else if (tool === "route") {
+      setEnds((before) => (before.length === 1 ? [...before, to] : [to]));
+    }
+  };
+
+  const hover = useCallback((at: Point | null) => setHovered(at ? cellAt(told, at) : undefined), [told]);
+  const choose = (next: Tool) => {
+    setTool(next);
+    setPreview([]);
+    if (next !== "route") setEnds([]);
+    if (next !== "none") editor?.setActiveTool({ type: "selection" });
+  };
+
+  const setPen = (next: Style) => {
+    setStyle(next);
+    const selected = editor?.getAppState().selectedElementIds ?? {};
+    const all = elements().map((one) => (selected[one.id] && ["wall", "furniture", "ignore"].includes(roleOf(one)) ? recolored(one, next) : one));
+    editor?.updateScene({ elements: all, appState: { currentItemStrokeColor: COLOR[next] }, captureUpdate: CaptureUpdateAction.IMMEDIATELY });
+  };
+
+  const mend = (one: Mend) => put(one.kind === "cut" ? cutDoor(elements(), one.segment) : closeGap(elements(), one.segment));
+
+  const go = () => {
+    const start = startOf(elements());
+    const goal = goalName || goalOf(elements());
+    setFate("none");
+    setTool("none");
+    begin({
+      type: "start", content: { media: "image/svg+xml", text: plain() }, ...(goal ? { goal } : {}),
+      ...(start && choice.tellStart ? { start } : {}), ...orderOf(choice),
+    });
+  };
+
+  const download = (kind: "svg" | "excalidraw") => {
+    const text = kind === "svg" ? drawingToSvg(elements(), files()) : sceneText(elements(), files());
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([text], { type: kind === "svg" ? "image/svg+xml" : "application/json" }));
+    link.download = `${stem(save.document.name || save.document.base)}.${kind}`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+
+  const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
+  const chosen = TOOLS.find((one) => one.tool === tool);
+  const area = hovered && scale ? `, about ${(areaOf(hovered) * scale ** 2).toFixed(0)} m2` : "";
+  const bottomLine = hovered
+    ? `${hovered.name || hovered.id}: ${hovered.size}${area}; ${hovered.neighbors.length ? `opens to ${hovered.neighbors.map((one) => nameOf(told?.cells, one.cell)).join(", ")}` : "no way in"}`
+    : (chosen?.hint ?? "");
+
+  return (
+    <div
+      className={`app ${drive ? "live" : driving ? "setup-open" : ""}`}
+      onDragOver={(event) => event.dataTransfer.types.includes("Files") && event.preventDefault()}
+      onDropCapture={(event) => {
+        const file = event.dataTransfer.files[0];
+        if (!file) return;
+        event.preventDefault();
+        event.stopPropagation();
+        opening.openFile(file);
+      }}
+    >
+      <header>
+        <h1>pilotage</h1>
+        <FileMenu opening={opening} download={download} />
+        <NameField name={save.document.name} rename={(name) => save.adopt({ name, base: stem(name), tag: null }, null)} />
+        <span className={`save-state ${save.state}`} data-testid="save-state" title={save.error}>
+          {save.document.name || save.state !== "saved" ? { saved: "saved", saving: "saving ...", conflict: "changed elsewhere", failed: "not saved" }[save.state] : ""}
+        </span>
+        <nav aria-label="Mode">
+          <button aria-pressed={!driving} onClick={() => { leave(); setDriving(false); }}>Draw</button>
+          <button aria-pressed={driving} onClick={() => { setDriving(true); setWelcome(false); }}>Drive</button>
+        </nav>
+      </header>
+
+      <main>
+        <div
+          className="sheet-area" hidden={!!drive}
+          onPointerMove={(event) => {
+            const box = event.currentTarget.getBoundingClientRect();
+            if (tool === "none") hover(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
+          }}
+          onPointerLeave={() => hover(null)}
+        >
+          <Excalidraw
+            excalidrawAPI={setEditor}
+            onChange={(all, state) => changed(all as readonly Element[], state)}
+            handleKeyboardGlobally={false}
+            autoFocus
+            aiEnabled={false}
+            initialData={{ appState: { currentItemRoughness: 0, currentItemStrokeWidth: 2, currentItemRoundness: "sharp", currentItemStrokeColor: COLOR.wall, currentItemFontFamily: 5, viewBackgroundColor: "#ffffff" } }}
+            UIOptions={{ canvasActions: { export: false, saveToActiveFile: false, loadScene: false, saveAsImage: false, toggleTheme: false, changeViewBackgroundColor: false, clearCanvas: false }, tools: { image: false } }}
+          />
+          <Overlay told={told} view={view} hovered={hovered?.id ?? ""} goal={goalOf(elements())} ends={ends} preview={preview} mend={mend} />
+          {tool !== "none" && (
+            <ToolLayer
+              tool={tool} view={view} hover={hover} leave={() => choose("none")} use={useTool}
+              preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : tool === "start" || tool === "measure" ? [from, to] : [])}
+            />
+          )}
+          <div className="own-tools" role="toolbar" aria-label="Tools of the drawing table">
+            {TOOLS.map((one) => (
+              <button key={one.tool} aria-pressed={tool === one.tool} title={one.hint} onClick={() => choose(tool === one.tool ? "none" : one.tool)}>
+                <Sign name={one.sign} />
+                <span>{one.text}</span>
+              </button>
+            ))}
+            <hr />
+            {STYLES.map((one) => (
+              <button key={one} aria-pressed={style === one} title={`Draw ${one}, or make what is selected ${one}`} onClick={() => setPen(one)}>
+                <i className="swatch" style={{ background: COLOR[one] }} />
+                <span>{one}</span>
+              </button>
+            ))}
+          </div>
+          {welcome && <Welcome opening={opening} close={() => setWelcome(false)} />}
+          <div className="bottom-line">
+            <Findings told={told} error={error} mend={mend} />
+            <span data-testid="hover">{bottomLine}</span>
+          </div>
+        </div>
+        {drive && <DriveView drive={drive} fate={fate} send={send} onGoal={(goal) => { send({ type: "goal", goal }); setFate("none"); }} />}
+      </main>
+
+      {drive && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
+      {driving && !drive && (
+        <DriveSetup
+          choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}
+          hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} go={go}
+        />
+      )}
+      {measuring && (
+        <MeasureDialog
+          close={() => setMeasuring(null)}
+          measured={(metres) => {
+            put([...elements(), newMeasure(measuring[0], measuring[1], metres)]);
+            setMeasuring(null);
+            choose("none");
+          }}
+        />
+      )}
+      {save.state === "conflict" && (
+        <Dialog title="This drawing was changed elsewhere">
+          <p>{save.document.name} was saved by another tab or program since you opened it. Neither version is lost.</p>
+          <button className="primary" onClick={() => save.adopt({ ...save.document, name: "", tag: null }, null)}>Keep mine as a copy</button>
+          <button onClick={() => openNamed(save.document.name).catch((problem: unknown) => tell(String(problem)))}>Show the other version</button>
+        </Dialog>
+      )}
+      {notice && <div className="notice" role="alert">{notice} <button aria-label="Close this notice" onClick={() => setNotice("")}>x</button></div>}
+    </div>
+  );
+}
+
+async function freeName(base: string): Promise<string> {
+  const taken = new Set((await listDrawings()).map((one) => one.name.toLowerCase()));
+  for (let k = 1; k < 1000; k++) {
+    const name = `${base}${k > 1 ? `-${k}` : ""}.svg`;
+    if (!taken.has(name.toLowerCase())) return name;
+  }
+  throw new ApiError(`there are too many drawings called ${base}`, 0);
+}
+
+const stem = (name: string) => (name.split("/").at(-1) ?? "").replace(/\.[a-z0-9]+$/i, "").replace(/-\d+$/, "") || "drawing";
+const nameOf = (cells: Cell[] | undefined, id: string) => cells?.find((cell) => cell.id === id)?.name || id;
+const recolored = (one: Element, style: Style): Element =>
+  ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;
+
+function areaOf({ outline, holes }: Cell): number {
+  const ringArea = (ring: Point[]) => Math.abs(ring.reduce((sum, [x, y], k) => {
+    const [u, v] = ring[(k + 1) % ring.length]!;
+    return sum + x * v - u * y;
+  }, 0)) / 2;
+  return ringArea(outline) - holes.reduce((sum, hole) => sum + ringArea(hole), 0);
+}

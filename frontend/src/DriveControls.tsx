@@ -1,0 +1,107 @@
+// Below a drive: what it is about in words, pause and speed, the fate that one may play, and the timeline.
+import { percent, type Fate } from "./DriveView";
+import type { Drive, Order } from "./useDrive";
+
+const SPEEDS = [1, 2, 5, 10, 20];
+const FATES: { fate: Fate; text: string; hint: string }[] = [
+  { fate: "goal", text: "New goal", hint: "click a place on the drawing" },
+  { fate: "door", text: "Door", hint: "click a door in the world to close or open it" },
+  { fate: "box", text: "Box", hint: "click in the world to put a box there" },
+  { fate: "person", text: "Person", hint: "click in the world: someone walks there" },
+];
+const MARK_COLOR: Record<string, string> = {
+  found: "#4f9d69", reached: "#4f9d69", lost: "#d1495b", mismatch: "#d1495b", "gave up": "#d1495b", blocked: "#8c4a2f", fate: "#7b6ca8",
+};
+
+interface Props {
+  drive: Drive;
+  fate: Fate;
+  setFate: (fate: Fate) => void;
+  send: (order: Order) => void;
+  restart: () => void;
+  leave: () => void;
+}
+
+export function DriveControls({ drive, fate, setFate, send, restart, leave }: Props) {
+  const { frame, done, session, paused } = drive;
+  const believed = frame?.believed;
+  const hint = FATES.find((one) => one.fate === fate)?.hint ?? (frame?.world ? "drag the robot in the world to carry it elsewhere" : "");
+  return (
+    <section className="drive-controls" aria-label="Drive">
+      <p className={`status ${believed?.status ?? ""}`} role="status" data-testid="status" data-outcome={done?.outcome ?? ""}>
+        <b>{done ? done.text || done.outcome : (frame?.text ?? (drive.error ? "" : "the robot wakes up ..."))}</b>
+        {!drive.connected && session && !drive.fatal && <span className="bad"> connection lost, trying again</span>}
+        {drive.error && <span className="bad"> {drive.error}</span>}
+      </p>
+      {believed && (
+        <dl className="figures">
+          <div><dt>time</dt><dd>{clock(frame.t)}</dd></div>
+          <div><dt>sure</dt><dd data-testid="probability">{percent(believed.probability)}</dd></div>
+          <div><dt>fit</dt><dd>{percent(believed.fit)}</dd></div>
+          <div><dt>speed</dt><dd>{frame.speed[0].toFixed(2)} m/s</dd></div>
+          <div><dt>to go</dt><dd>{believed.distance == null ? "?" : `${believed.distance.toFixed(0)} m`}</dd></div>
+          <div className="wide"><dt>places</dt><dd>{believed.places.slice(0, 3).map((one) => `${one.place || one.cell} ${percent(one.probability)}`).join(", ") || "none"}</dd></div>
+        </dl>
+      )}
+      <div className="row" role="group" aria-label="Course of the drive">
+        <button className="primary" disabled={!!done} onClick={() => send({ type: "pause", paused: !paused })}>{paused ? "Go on" : "Pause"}</button>
+        <button disabled={!!done} onClick={() => send({ type: "step" })}>Step</button>
+        <label>
+          Speed
+          <select value={SPEEDS.includes(drive.speed) ? drive.speed : 1} onChange={(event) => send({ type: "speed", speed: Number(event.target.value) })}>
+            {SPEEDS.map((speed) => <option key={speed} value={speed}>{speed} x</option>)}
+          </select>
+        </label>
+        <button onClick={restart}>Restart</button>
+        <button onClick={leave}>Back to the drawing</button>
+      </div>
+      {!done && (
+        <div className="row" role="group" aria-label="Play fate">
+          <span className="quiet">Play fate:</span>
+          {FATES.filter((one) => one.fate === "goal" || drive.world).map((one) => (
+            <button key={one.fate} aria-pressed={fate === one.fate} onClick={() => setFate(fate === one.fate ? "none" : one.fate)}>{one.text}</button>
+          ))}
+          <span className="quiet">{hint}</span>
+        </div>
+      )}
+      <Timeline drive={drive} send={send} />
+      {session && (
+        <div className="row quiet">
+          Take with you:
+          <a href={`/api/sessions/${session.session}/film`} download="drive.gif">film</a>
+          <a href={`/api/sessions/${session.session}/picture`} download="drive.png">picture</a>
+          <a href={`/api/sessions/${session.session}/journal`} download="journal.jsonl">journal</a>
+        </div>
+      )}
+    </section>
+  );
+}
+
+function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void }) {
+  const [first, last] = drive.recorded;
+  const end = Math.max(last, drive.frame?.live ? drive.frame.t : 0, 1);
+  const now = drive.frame?.t ?? 0;
+  const at = (t: number) => `${(100 * (t - first)) / Math.max(end - first, 1e-6)}%`;
+  return (
+    <div className="timeline">
+      <div className="marks" aria-hidden="true">
+        {drive.marks.map((mark, k) => (
+          <i key={k} className="mark" style={{ left: at(mark.t), background: MARK_COLOR[mark.kind] ?? "#8b939e" }} title={`${clock(mark.t)} ${mark.text}`} />
+        ))}
+      </div>
+      <input
+        type="range" min={first} max={end} step={0.1} value={Math.min(now, end)}
+        aria-label="Timeline: look back at any moment" aria-valuetext={clock(now)} data-testid="timeline"
+        onChange={(event) => send({ type: "scrub", t: Number(event.target.value) })}
+      />
+      <button disabled={drive.frame?.live !== false} onClick={() => send({ type: "scrub", t: null })}>Now</button>
+      <ol className="log" aria-label="What happened" data-testid="marks">
+        {drive.marks.slice(-4).map((mark, k) => (
+          <li key={k}><span>{clock(mark.t)}</span> {mark.text || mark.kind}</li>
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+const clock = (t: number) => `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`;

@@ -1,0 +1,57 @@
+// Files as scenes of the editor: its own ones as they are, all others as the server reads them.
+import { restoreElements } from "@excalidraw/excalidraw";
+import type { BinaryFileData, BinaryFiles } from "@excalidraw/excalidraw/types";
+import { upload } from "./api";
+import { newGoal, newPicture, newStart, newStroke, newText, type Element } from "./scene";
+import { sceneIn, type Scene } from "./svg";
+import type { Point, Upload } from "./types";
+
+const SIZE = 1000; // longer side of a drawing that comes from elsewhere [scene units]
+const LARGEST_PICTURE = 1600; // longer side of a photo that is kept under the drawing [px]
+const CORNER: Point = [120, 90]; // where it is put
+const PICTURE = /^image\/(png|jpe?g|webp)$/;
+
+export interface Opened extends Scene {
+  notes: string[];
+}
+
+export async function openContent(name: string, content: Blob): Promise<Opened> {
+  const isText = /\.(svg|excalidraw|json)$/i.test(name);
+  const scene = isText ? sceneIn(await content.text()) : null;
+  if (scene) return { elements: restoreElements(scene.elements, null), files: scene.files, notes: [] };
+  const read = await upload(name, content);
+  const opened = elementsOf(read);
+  if (!PICTURE.test(content.type)) return opened;
+  const picture = await pictureUnder(content, read).catch(() => null);
+  return picture
+    ? { elements: [picture.element, ...opened.elements], files: picture.files, notes: [...opened.notes, "the picture lies under the drawing"] }
+    : opened;
+}
+
+function placing({ bounds: [left, top, right, bottom] }: Upload) {
+  const scale = SIZE / Math.max(right - left, bottom - top, 1e-9);
+  return { scale, at: ([x, y]: Point): Point => [CORNER[0] + scale * (x - left), CORNER[1] + scale * (y - top)] };
+}
+
+function elementsOf(read: Upload): Opened {
+  const { at } = placing(read);
+  const strokes = read.strokes.map(({ points, closed }) => newStroke((closed ? [...points, points[0]!] : points).map(at)));
+  const labels = read.labels.map(({ text, x, y }) => newText(text, at([x, y]), 20));
+  const goal = read.goal ? [newGoal(at(read.goal), 24)] : [];
+  const start = read.start ? [newStart(at(read.start), [at(read.start)[0] + 40, at(read.start)[1]])] : [];
+  return { elements: [...strokes, ...labels, ...start, ...goal] as Element[], files: {}, notes: read.notes };
+}
+
+async function pictureUnder(content: Blob, read: Upload): Promise<{ element: Element; files: BinaryFiles }> {
+  const image = await createImageBitmap(content);
+  const shrink = Math.min(1, LARGEST_PICTURE / Math.max(image.width, image.height));
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [Math.round(image.width * shrink), Math.round(image.height * shrink)];
+  canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  const id = crypto.getRandomValues(new Uint32Array(4)).join("");
+  const { at } = placing(read);
+  const [left, top] = at([0, 0]);
+  const [right, bottom] = at([image.width, image.height]);
+  const file = { id, mimeType: "image/jpeg", dataURL: canvas.toDataURL("image/jpeg", 0.8), created: 0 } as unknown as BinaryFileData;
+  return { element: newPicture(id, [left, top, right, bottom]), files: { [id]: file } };
+}

@@ -1,0 +1,83 @@
+// Saves the drawing a moment after each change, each time as the successor of the version last seen.
+import { useCallback, useEffect, useRef, useState } from "react";
+import { ApiError, saveDrawing } from "./api";
+
+const PAUSE_MS = 700; // without a change, before it is saved
+const LONGEST_MS = 1500; // that a change waits while one draws on
+
+export interface Document {
+  name: string; // "" as long as it is not saved
+  base: string; // what its name begins with when it gets one
+  tag: string | null; // version that the server has; null while it has none
+}
+
+export type SaveState = "saved" | "saving" | "conflict" | "failed";
+
+export interface Autosave {
+  document: Document;
+  state: SaveState;
+  error: string;
+  saveNow: () => Promise<void>;
+  /** Go on with another document; `saved` is its content as the server has it, null to save it at once. */
+  adopt: (document: Document, saved: string | null) => void;
+}
+
+export function useAutosave(content: () => string, revision: number, freeName: (base: string) => Promise<string>): Autosave {
+  const [document, setDocument] = useState<Document>({ name: "", base: "drawing", tag: null });
+  const [state, setState] = useState<SaveState>("saved");
+  const [error, setError] = useState("");
+  const now = useRef({ document, saved: "", changedAt: 0 });
+  const turn = useRef<Promise<void>>(Promise.resolve());
+
+  const saveNow = useCallback(() => {
+    turn.current = turn.current.then(async () => {
+      const { document } = now.current;
+      const text = content();
+      now.current.changedAt = 0;
+      if (text === now.current.saved) return setState((before) => (before === "conflict" ? before : "saved"));
+      setState("saving");
+      try {
+        const name = document.name || (await freeName(document.base));
+        const tag = await saveDrawing(name, text, document.tag);
+        if (now.current.document !== document) return;
+        now.current.saved = text;
+        now.current.document = { ...document, name, tag };
+        setDocument(now.current.document);
+        setError("");
+        setState("saved");
+      } catch (problem) {
+        setError(problem instanceof Error ? problem.message : String(problem));
+        setState(problem instanceof ApiError && (problem.status === 409 || problem.status === 412) ? "conflict" : "failed");
+      }
+    });
+    return turn.current;
+  }, [content, freeName]);
+
+  const adopt = useCallback((document: Document, saved: string | null) => {
+    now.current = { document, saved: saved ?? "", changedAt: 0 };
+    setDocument(document);
+    setError("");
+    setState("saved");
+    if (saved === null) void saveNow();
+  }, [saveNow]);
+
+  useEffect(() => {
+    if (revision === 0 || state === "conflict") return;
+    now.current.changedAt ||= performance.now();
+    const waited = performance.now() - now.current.changedAt;
+    const timer = setTimeout(() => void saveNow(), Math.max(0, Math.min(PAUSE_MS, LONGEST_MS - waited)));
+    return () => clearTimeout(timer);
+  }, [revision, state, saveNow]);
+
+  useEffect(() => {
+    const leave = () => {
+      const { document, saved } = now.current;
+      const text = content();
+      if (document.name && text !== saved) void saveDrawing(document.name, text, document.tag, true).catch(() => {});
+    };
+    window.addEventListener("pagehide", leave);
+    return () => window.removeEventListener("pagehide", leave);
+  }, [content]);
+
+  return { document, state, error, saveNow, adopt };
+}

@@ -1,0 +1,36 @@
+// Asks the server what it understands of the drawing, shortly after each change; a later question ends an earlier one.
+import { useEffect, useState } from "react";
+import { ApiError, understand } from "./api";
+import type { Point, Understanding } from "./types";
+
+const PAUSE_MS = 250; // without a change, before the server is asked
+
+export interface Understood {
+  told: Understanding | null;
+  error: string;
+}
+
+export function useUnderstanding(content: () => string, revision: number, ends: [Point, Point] | null): Understood {
+  const [understood, setUnderstood] = useState<Understood>({ told: null, error: "" });
+  useEffect(() => {
+    if (revision === 0) return;
+    const control = new AbortController();
+    const timer = setTimeout(() => {
+      const places = ends?.map((p) => p.map((v) => v.toFixed(2)).join(",")) as [string, string] | undefined;
+      understand(content(), control.signal, places)
+        .then((told) => {
+          setUnderstood({ told, error: "" });
+          requestAnimationFrame(() => performance.mark("cells-shown"));
+        })
+        .catch((error: unknown) => {
+          if (control.signal.aborted) return;
+          setUnderstood((before) => ({ ...before, error: error instanceof ApiError ? error.message : String(error) }));
+        });
+    }, PAUSE_MS);
+    return () => {
+      clearTimeout(timer);
+      control.abort();
+    };
+  }, [content, revision, ends]);
+  return understood;
+}

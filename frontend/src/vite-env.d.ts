@@ -1,0 +1,4 @@
+interface Window {
+  EXCALIDRAW_ASSET_PATH: string;
+}
+declare module "*.css";

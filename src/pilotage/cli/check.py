@@ -1,0 +1,190 @@
+"""`pilotage check`: what the program understands of a drawing, and what looks wrong with it."""
+
+import json
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.exits import FAILURE
+from pilotage.cli.places import find_place
+from pilotage.cli.terminal import check_outputs, say
+
+if TYPE_CHECKING:
+    from pilotage.findings import Finding, Report
+    from pilotage.maps import SchematicMap
+
+
+OF_A_KIND = 3
+"""So many findings of a kind are listed; --json lists all."""
+
+
+def check(
+    drawing: Map,
+    *,
+    start: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y|LABEL", help="Where to start.", show_default="as marked in the drawing"),
+    ] = None,
+    goal: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y|LABEL", help="Where to go.", show_default="as marked in the drawing"),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option(help="Where to draw what was understood (.png, .svg, .pdf).")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print all of it as JSON.")] = False,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+) -> None:
+    """Tell what is understood of a drawing, and what looks wrong with it.
+
+    Rooms and their names, doors, and what the marks were taken for; then findings: where, why, what to do. An
+    *error* means that the drawing, its start or its goal cannot be used, and the exit status is 1; a
+    *warning* that something is probably not what you meant; a *note* is worth knowing.
+
+    Points are in the drawing's own units and axes (in SVG and in pictures y points down).
+
+    **Examples:**
+
+    - `pilotage check office.svg --figure check.png`
+    - `pilotage check plan.dxf --layer A-FURN=ignore --goal kitchen`
+    - `pilotage check photo.jpg --label kitchen=120,80 --json`
+    """
+    check_outputs([figure], force=force)
+    from pilotage.findings import Severity, report
+
+    division = None
+    if settings is not None:
+        from pilotage.config import read_settings
+
+        division = read_settings(settings).localizer.atlas.decomposition
+    opened = open_drawing(drawing, layer, label, page, shading)
+    found = report(opened.sketch, opened.interpretation, settings=division)
+    found = with_ends(found, start, goal)
+    if as_json:
+        typer.echo(json.dumps({"file": str(drawing), **json_of(found, opened.remarks)}, indent=1))
+    else:
+        typer.echo(describe(drawing.name, found))
+    if figure is not None:
+        from pilotage.figures.check import check_figure
+        from pilotage.figures.style import save
+
+        save(check_figure(found, title=f"What is understood of {drawing.name}"), figure)
+        say(f"drawn in {figure}")
+    if any(finding.severity is Severity.ERROR for finding in found.findings):
+        raise typer.Exit(FAILURE)
+
+
+def with_ends(found: "Report", start: str | None, goal: str | None) -> "Report":
+    """Check the start and goal that were asked for instead of those that are marked."""
+    if found.graph is None or (start is None and goal is None):
+        return found
+    from pilotage.findings import for_ends
+    from pilotage.maps import RouteError
+
+    ends = []
+    for option, words in (("--start", start), ("--goal", goal)):
+        try:
+            ends.append(None if words is None else find_place(words, found.sketch, found.graph))
+        except RouteError as error:
+            raise typer.BadParameter(str(error), param_hint=option) from error
+    return for_ends(found, ends[0], ends[1])
+
+
+def describe(name: str, found: "Report") -> str:
+    """Write what was understood, then the findings."""
+    lines = [f"{name}: {counted(found)}"]
+    if found.graph is not None:
+        for cell in found.graph.cells:
+            beside = sorted({neighbor.cell_id for neighbor in found.graph.neighbors(cell.cell_id)})
+            words = f" {cell.label!r}" if cell.label else ""
+            lines.append(f"  {cell.cell_id}{words}: {', '.join(beside) or 'no door'}")
+    lines += [f"  {line}" for line in marks_in_words(found)]
+    lines += listed(found.findings) or ["nothing looks wrong"]
+    return "\n".join(lines)
+
+
+def listed(findings: "tuple[Finding, ...]") -> list[str]:
+    """List findings, a few of each kind before the others are counted."""
+    lines, told = [], Counter[str]()
+    count = Counter(finding.kind for finding in findings)
+    for finding in findings:
+        told[finding.kind] += 1
+        if told[finding.kind] <= OF_A_KIND:
+            lines.append(str(finding))
+        elif told[finding.kind] == OF_A_KIND + 1:
+            more = count[finding.kind] - OF_A_KIND
+            lines.append(f"{finding.severity.value}: {more} more of this kind ({finding.kind})")
+    return lines
+
+
+def counted(found: "Report") -> str:
+    """Count rooms, doors and names."""
+    if found.graph is None:
+        return "no room"
+    rooms, doors = len(found.graph.cells), len(found.graph.gateways)
+    named = sum(bool(cell.label) for cell in found.graph.cells)
+    return f"{rooms} room{'s' * (rooms != 1)} ({named} with a name), {doors} door{'s' * (doors != 1)}"
+
+
+def marks_in_words(found: "Report") -> list[str]:
+    """Say what the marks were taken for and why, the most frequent first."""
+    if found.interpretation is None:
+        return []
+    meanings = found.interpretation.meanings
+    lines = []
+    for role, count in Counter(meaning.role for meaning in meanings).most_common():
+        reasons = Counter(meaning.reason for meaning in meanings if meaning.role is role)
+        told = ", ".join(f"{reason} ({number})" for reason, number in reasons.most_common(3))
+        lines.append(f"{count} mark{'s' * (count != 1)} {role.value}: {told}")
+    return lines
+
+
+def json_of(found: "Report", remarks: tuple[str, ...]) -> dict[str, object]:
+    """Write what was understood as nested dictionaries, points in the axes of the file."""
+    cells, gateways = [], []
+    if found.graph is not None:
+        for cell in found.graph.cells:
+            neighbors = sorted({neighbor.cell_id for neighbor in found.graph.neighbors(cell.cell_id)})
+            cells.append(
+                {
+                    "id": cell.cell_id,
+                    "label": cell.label,
+                    "size": cell.size.value,
+                    "center": points(found.sketch, [cell.center])[0],
+                    "neighbors": neighbors,
+                }
+            )
+        gateways = [
+            {
+                "id": gateway.gateway_id,
+                "cells": list(gateway.cell_ids),
+                "segment": points(found.sketch, gateway.segment.tolist()),
+            }
+            for gateway in found.graph.gateways
+        ]
+    roles: Counter[str] = Counter()
+    if found.interpretation is not None:
+        roles.update(meaning.role.value for meaning in found.interpretation.meanings)
+    return {
+        "cells": cells,
+        "gateways": gateways,
+        "marks": dict(roles),
+        "assumed": list(remarks),
+        "findings": [finding.as_json for finding in found.findings],
+    }
+
+
+def points(sketch: "SchematicMap", places: list[tuple[float, float]]) -> list[list[float]]:
+    """Carry points to the axes of the file."""
+    import numpy as np
+
+    carried: list[list[float]] = sketch.file_from_sketch(np.array(places, dtype=np.float64)).tolist()
+    return carried

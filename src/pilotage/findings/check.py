@@ -1,0 +1,140 @@
+"""Find what looks wrong with a drawing."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from pilotage.findings.finding import Finding, Point, Severity
+from pilotage.findings.gaps import find_closed_gaps, find_odd_gateways
+from pilotage.findings.page import (
+    find_far_strokes,
+    find_marks_left_out,
+    find_scale,
+    no_doors,
+    nothing_enclosed,
+)
+from pilotage.findings.rooms import find_closed_areas, find_names, find_parts, find_rooms_without_door
+from pilotage.interpretation import Interpretation
+from pilotage.maps import (
+    CellGraph,
+    DecompositionSettings,
+    Division,
+    NoDoorsError,
+    NotEnclosedError,
+    RouteError,
+    SchematicMap,
+    check_place,
+    check_reachable,
+    divide,
+)
+
+ORDER = tuple(Severity)
+END_KINDS = ("bad-start", "bad-goal")
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """What was understood of a drawing, and what looks wrong with it."""
+
+    sketch: SchematicMap
+    graph: CellGraph | None  # None if nothing is enclosed
+    findings: tuple[Finding, ...]  # the worst first
+    interpretation: Interpretation | None = None  # None: a picture that was read by its free space
+
+
+def check(sketch: SchematicMap, settings: DecompositionSettings | None = None) -> tuple[Finding, ...]:
+    """Find what looks wrong with a drawing, the worst first; points are in the axes of its file.
+
+    An empty tuple means that nothing does. A drawing that encloses nothing is a finding, no error.
+    """
+    return report(sketch, settings=settings).findings
+
+
+def report(
+    sketch: SchematicMap,
+    interpretation: Interpretation | None = None,
+    *,
+    settings: DecompositionSettings | None = None,
+) -> Report:
+    """Divide a drawing into cells, and find what looks wrong with it and with its marks."""
+    try:
+        division = divide(sketch, settings or DecompositionSettings())
+    except NoDoorsError as error:
+        found = [no_doors(str(error))]
+        return Report(sketch, None, in_order(sketch, found), interpretation)
+    except NotEnclosedError as error:
+        found = [nothing_enclosed(sketch, str(error))]
+        return Report(sketch, None, in_order(sketch, found), interpretation)
+    return Report(
+        sketch,
+        division.graph,
+        in_order(sketch, [*find_all(sketch, division, interpretation)]),
+        interpretation,
+    )
+
+
+def find_all(
+    sketch: SchematicMap, division: Division, interpretation: Interpretation | None
+) -> Iterator[Finding]:
+    """Ask all checks."""
+    yield from find_bad_ends(sketch, division.graph)
+    yield from find_closed_areas(division, sketch.labels)
+    yield from find_rooms_without_door(division.graph)
+    yield from find_parts(division.graph)
+    yield from find_far_strokes(sketch, division.graph)
+    yield from find_names(sketch, division)
+    yield from find_closed_gaps(division)
+    yield from find_odd_gateways(division.graph)
+    yield from find_scale(sketch, division.graph)
+    if interpretation is not None:
+        yield from find_marks_left_out(interpretation)
+
+
+def for_ends(report: Report, start: Point | None, goal: Point | None) -> Report:
+    """Judge another start or goal than those that are marked: points of the sketch; None: as marked."""
+    assert report.graph is not None
+    sketch = replace(
+        report.sketch,
+        start=report.sketch.start if start is None else start,
+        goal=report.sketch.goal if goal is None else goal,
+    )
+    ends = in_order(sketch, list(find_bad_ends(sketch, report.graph)))
+    others = tuple(finding for finding in report.findings if finding.kind not in END_KINDS)
+    return replace(report, sketch=sketch, findings=ends + others)
+
+
+def find_bad_ends(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
+    """Find a start or goal that lies in no room, and a goal that cannot be reached."""
+    start, goal = (usable(graph, point) for point in (sketch.start, sketch.goal))
+    for what, point, fine in (("start", sketch.start, start), ("goal", sketch.goal, goal)):
+        if point is not None and fine is None:
+            yield bad_end(what, point, place_problem(graph, point, what))
+    if goal is not None:
+        try:
+            check_reachable(graph, goal, start)
+        except RouteError as error:
+            yield bad_end("goal", goal, str(error))
+
+
+def usable(graph: CellGraph, point: Point | None) -> Point | None:
+    """Return a point that lies in a cell, else None."""
+    return None if point is None or place_problem(graph, point, "place") else point
+
+
+def place_problem(graph: CellGraph, point: Point, what: str) -> str:
+    """Say why a point cannot be used; nothing if it can."""
+    try:
+        check_place(graph, point, what)
+    except RouteError as error:
+        return str(error)
+    return ""
+
+
+def bad_end(what: str, point: Point, problem: str) -> Finding:
+    """Report a start or goal that cannot be used."""
+    return Finding(f"bad-{what}", Severity.ERROR, problem, f"move the mark of the {what}", point)
+
+
+def in_order(sketch: SchematicMap, findings: list[Finding]) -> tuple[Finding, ...]:
+    """Sort findings, the worst first, else as they were found; carry them to the axes of the file."""
+    ranked = sorted(findings, key=lambda finding: ORDER.index(finding.severity))
+    return tuple(finding.in_file(sketch) for finding in ranked)

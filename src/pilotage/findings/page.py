@@ -1,0 +1,106 @@
+"""What looks wrong with a sheet as a whole: far strokes, absurd scales, no rooms, marks left out."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from pilotage.findings.doors import door_width
+from pilotage.findings.finding import Finding, Mend, MendKind, Severity
+from pilotage.interpretation import Interpretation
+from pilotage.maps import CellGraph, SchematicMap
+from pilotage.maps.schematic import diameter_of
+
+FAR = 0.1
+"""A stroke is far outside if it keeps this distance from all rooms, as a share of their diameter."""
+
+INFLATED = 1.25
+"""Strokes outside matter if they make the drawing so many times as large as its rooms."""
+
+DOORS_M, BUILDINGS_M = (0.4, 5.0), (2.0, 2000.0)
+"""Widths of doors and diameters of buildings [m] that there are."""
+
+OPEN_ENDS = 0.25
+"""Open ends of strokes are joined over at most this share of the drawing's diameter."""
+
+
+def find_far_strokes(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
+    """Find strokes that stand far from all rooms: all thresholds are shares of the drawing's size."""
+    rooms = shapely.convex_hull(shapely.union_all([cell.polygon for cell in graph.cells]))
+    size = diameter_of(shapely.get_coordinates(rooms))
+    strokes = np.array([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    far = shapely.distance(strokes, rooms) > FAR * size
+    if not far.any():
+        return
+    point = shapely.get_coordinates(strokes[far][0])[0]
+    matters = graph.diameter > INFLATED * size
+    count = int(far.sum())
+    what = f"{count} strokes lie" if count > 1 else "a stroke lies"
+    yield Finding(
+        "far-strokes",
+        Severity.WARNING if matters else Severity.NOTE,
+        f"{what} far outside of the rooms" + (": the building looks small beside them" if matters else ""),
+        "delete what is no wall, or put it on a layer named 'ignore'",
+        (float(point[0]), float(point[1])),
+    )
+
+
+def find_scale(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
+    """Find a scale that no building has. It is only a prior, so that nothing breaks."""
+    if sketch.metres_per_unit is None:
+        return
+    size, door = (length * sketch.metres_per_unit for length in (graph.diameter, door_width(graph)))
+    for what, length, (low, high) in (
+        ("the building is", size, BUILDINGS_M),
+        ("a door is", door, DOORS_M),
+    ):
+        if not low <= length <= high and (what != "a door is" or graph.gateways):
+            yield Finding(
+                "absurd-scale",
+                Severity.NOTE,
+                f"by the units of the file {what} {length:.3g} m {'wide' if 'door' in what else 'long'}",
+                "the scale is found from the laser anyway; --scale tells it if you know it",
+            )
+            return
+
+
+def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
+    """Tell what the reader could not read."""
+    if interpretation.sheet.left_out:
+        yield Finding(
+            "left-out",
+            Severity.NOTE,
+            f"left out: {', '.join(interpretation.sheet.left_out)}",
+            "if walls are among it, save the drawing in another format",
+        )
+
+
+def no_doors(reason: str) -> Finding:
+    """Say that all rooms are closed boxes."""
+    return Finding("no-doors", Severity.ERROR, reason, "erase a piece of wall wherever a door is")
+
+
+def nothing_enclosed(sketch: SchematicMap, reason: str) -> Finding:
+    """Say that no room is closed, and which two ends of strokes would close best."""
+    mend = join_open_ends(sketch)
+    where = None if mend is None else mend.segment[0]
+    advice = "close the outer walls; doors to the outside may be gaps"
+    return Finding("nothing-enclosed", Severity.ERROR, reason, advice, where, (), mend)
+
+
+def join_open_ends(sketch: SchematicMap) -> Mend | None:
+    """Join the two nearest ends of strokes that touch nothing; None if there are none near each other."""
+    strokes = [stroke for stroke in sketch.strokes if not stroke.closed]
+    ends = np.array([stroke.vertices[end] for stroke in strokes for end in (0, -1)]).reshape(-1, 2)
+    if len(ends) < 2:
+        return None
+    gaps = np.hypot(*(ends[:, None] - ends[None]).transpose(2, 0, 1))
+    np.fill_diagonal(gaps, np.inf)
+    touch = 1e-3 * sketch.diagonal
+    is_open = gaps.min(axis=1) > touch
+    gaps[~is_open], gaps[:, ~is_open] = np.inf, np.inf
+    first, second = np.unravel_index(gaps.argmin(), gaps.shape)
+    if not gaps[first, second] <= OPEN_ENDS * sketch.diagonal:
+        return None
+    (ax, ay), (bx, by) = ends[first].tolist(), ends[second].tolist()
+    return Mend(MendKind.CLOSE, ((ax, ay), (bx, by)), "close this gap?")

@@ -1,0 +1,181 @@
+"""What looks wrong with rooms: no door, no way, and names that are missing, doubled or nowhere."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from pilotage.findings.doors import suggest_door
+from pilotage.findings.finding import Finding, Severity
+from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
+from pilotage.maps.routing.places import connected_cells
+
+BUILDING = 0.2
+"""A part that cannot be reached is a building of its own from this share of the largest part's area on."""
+
+SOLID = 0.005
+"""A closed area of less than this share of all cells is not worth a word."""
+
+LISTED = 3
+"""So many words are listed before the rest is counted."""
+
+DOOR_ADVICE = "leave a gap in its wall where the door is"
+
+
+def find_rooms_without_door(graph: CellGraph) -> Iterator[Finding]:
+    """Find cells that no gateway leads to."""
+    for cell in graph.cells:
+        if len(graph.cells) > 1 and not graph.gateways_of(cell.cell_id):
+            others = [other.polygon for other in graph.cells if other is not cell]
+            mend = suggest_door(cell.polygon, others, graph)
+            text = f"no door leads into {named(cell)}"
+            yield Finding(
+                "room-without-door",
+                Severity.WARNING,
+                text,
+                DOOR_ADVICE,
+                cell.center,
+                (cell.cell_id,),
+                mend,
+            )
+
+
+def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator[Finding]:
+    """Find what is enclosed and still no cell: taken for solid, as no door leads into it."""
+    graph = division.graph
+    cells = shapely.union_all([cell.polygon for cell in graph.cells])
+    seam = 1e-6 * graph.diameter
+    left = shapely.difference(division.space.region, shapely.buffer(cells, seam))
+    for area in shapely.get_parts(left):
+        names = [label.text for label in labels if area.covers(shapely.Point(label.position))]
+        if not names and area.area < SOLID * cells.area:
+            continue
+        inner = shapely.point_on_surface(area)
+        what = f"{quoted(names)} stands in an area" if names else "an area"
+        yield Finding(
+            "closed-area",
+            Severity.WARNING if names else Severity.NOTE,
+            f"{what} that is closed on all sides and taken for solid",
+            "if it is a room, leave a gap where its door is",
+            (float(inner.x), float(inner.y)),
+            (),
+            suggest_door(area, [cell.polygon for cell in graph.cells], graph),
+        )
+
+
+def find_parts(graph: CellGraph) -> Iterator[Finding]:
+    """Find cells that cannot be reached from the rest, and sheets that show two buildings."""
+    parts = connected_cells(graph)
+    areas = [sum(graph.cell(name).polygon.area for name in part) for part in parts]
+    hulls = [
+        shapely.convex_hull(shapely.union_all([graph.cell(name).polygon for name in part])) for part in parts
+    ]
+    for number in range(1, len(parts)):
+        if len(parts[number]) < 2:
+            continue  # a room without a door
+        cells = [cell for cell in graph.cells if cell.cell_id in parts[number]]
+        is_building = areas[number] > BUILDING * areas[0] and not hulls[number].intersects(hulls[0])
+        listed = ", ".join(named(cell) for cell in cells[:4]) + (", ..." if len(cells) > 4 else "")
+        if is_building:
+            yield Finding(
+                "two-buildings",
+                Severity.WARNING,
+                f"the sheet shows more than one building or floor ({listed} stand apart)",
+                "draw each in a file of its own; until then the robot stays where it starts",
+                cells[0].center,
+                tuple(cell.cell_id for cell in cells),
+            )
+        else:
+            yield Finding(
+                "unreachable",
+                Severity.WARNING,
+                f"{listed} cannot be reached from the rest of the building",
+                "leave a gap where the door between them is",
+                cells[0].center,
+                tuple(cell.cell_id for cell in cells),
+                suggest_door(
+                    cells[0].polygon,
+                    [cell.polygon for cell in graph.cells if cell.cell_id not in parts[number]],
+                    graph,
+                ),
+            )
+
+
+def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
+    """Find labels outside of rooms, names that several rooms have, and rooms that have several names."""
+    graph = division.graph
+    if not sketch.labels:
+        yield Finding(
+            "no-names",
+            Severity.NOTE,
+            "no room has a name",
+            "write names into the rooms, or give them by --label NAME=X,Y",
+        )
+    yield from find_stray_labels(sketch, division)
+    by_name: dict[str, list[Cell]] = {}
+    for cell in graph.cells:
+        if cell.label:
+            by_name.setdefault(cell.label.casefold(), []).append(cell)
+    for cells in by_name.values():
+        if len(cells) > 1:
+            yield Finding(
+                "same-name",
+                Severity.NOTE,
+                f"{len(cells)} rooms are called {cells[0].label!r}",
+                f"call them by their ids ({', '.join(cell.cell_id for cell in cells)}) or number them",
+                cells[1].center,
+                tuple(cell.cell_id for cell in cells),
+            )
+    for cell in graph.cells:
+        words = cell.label.split(", ")
+        if len(words) > 1:
+            yield Finding(
+                "several-names",
+                Severity.NOTE,
+                f"{quoted(words)} stand in one room",
+                "this is right for an open space; else draw the wall between them",
+                cell.center,
+                (cell.cell_id,),
+            )
+
+
+def find_stray_labels(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
+    """Find labels that stand in no room; those in closed areas are told by `find_closed_areas`."""
+    if not sketch.labels:
+        return
+    points = shapely.points([label.position for label in sketch.labels])
+    cells = np.array([cell.polygon for cell in division.graph.cells])
+    in_cell = shapely.STRtree(cells).query(points, predicate="intersects")[0]
+    in_closed = shapely.covers(division.space.region, points)
+    outdoors = shapely.union_all(division.space.tessellation.pieces[division.space.outside])
+    homeless = [number for number in range(len(points)) if number not in in_cell and not in_closed[number]]
+    is_out = {number: outdoors.is_empty or outdoors.covers(points[number]) for number in homeless}
+    for where, numbers in (
+        ("outside of all rooms", [number for number in homeless if is_out[number]]),
+        ("on a wall", [number for number in homeless if not is_out[number]]),
+    ):
+        if numbers:
+            texts = [sketch.labels[number].text for number in numbers]
+            yield Finding(
+                "label-outside",
+                Severity.NOTE,
+                f"{quoted(texts)} stand{'s' if len(texts) == 1 else ''} {where}",
+                "move what names a room into the room; a title may stay where it is",
+                sketch.labels[numbers[0]].position,
+            )
+
+
+def named(cell: Cell) -> str:
+    """Name a cell as a person would."""
+    return repr(cell.label) if cell.label else cell.cell_id
+
+
+def quoted(words: list[str]) -> str:
+    """List words in quotation marks, a few of them if they are many.
+
+    >>> quoted(["Kitchen", "Hall"]), quoted(["a", "b", "c", "d", "e"])
+    ("'Kitchen' and 'Hall'", "'a', 'b', 'c' and 2 more")
+    """
+    shown = [repr(word) for word in (words if len(words) <= LISTED + 1 else words[:LISTED])]
+    shown += [f"{len(words) - LISTED} more"] if len(words) > len(shown) else []
+    return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else shown[0]

@@ -1,0 +1,242 @@
+"""A building made up from a drawing: other proportions, furniture, doors that close, and people.
+
+So anyone can drive with nothing but a drawing. The robot gets the drawing; the building is as little like it
+as the severity asks for, from 0, which is the drawing itself, to 1.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from pilotage.geometry import Array, Polyline, Pose2
+from pilotage.maps import Atlas, Cell, CellGraph
+from pilotage.simulation.people import Person
+from pilotage.simulation.proportions import Proportions
+from pilotage.simulation.scene import Door
+from pilotage.simulation.simulator import StartError
+from pilotage.simulation.world import World
+
+Point = tuple[float, float]
+
+NARROWEST = 0.9
+"""Width [m] to which the narrowest drawn passage is widened, with all the building."""
+MOST_WIDENING = 2.0
+"""By no larger factor than this."""
+DOOR = 1.0
+"""Width [m] of a usual door: narrow passages tell how large a building is meant to be,"""
+TRUST_IN_DOORS = math.log(1.6)
+"""up to this from what its size and its clearance say [log]: the robot guesses by those."""
+WIDEST_DOOR = 2.5
+"""A gateway wider than this [m] has no leaf."""
+ROBOT = 0.35
+"""Free space [m] left beside what is put into a room: the radius of a robot and a little more."""
+BEFORE_DOOR = 1.0
+"""Distance [m] of furniture from gateways."""
+AREA_A_PIECE = 5.0
+"""Area of a room [m²] that gets one piece of furniture at severity 1."""
+DEPTH, LENGTH = (0.35, 0.8), (0.5, 1.8)
+"""Of a piece of furniture [m]: between these."""
+LEAST_LEFT = 0.55
+"""Share of the space of a room in which a robot can be that furniture leaves free."""
+AREA_A_PERSON = 90.0
+"""Area [m²] with one person at severity 1."""
+MOST_PEOPLE = 6
+CLOSES = 0.25
+"""Probability that a door closes for a while during the first minutes, at severity 1."""
+TRIES = 12
+"""Places tried for each piece of furniture and person."""
+
+
+@dataclass(frozen=True, eq=False)
+class MadeReal:
+    """A building, and where a place of the drawing is in it."""
+
+    world: World  # with a start
+    proportions: Proportions
+
+
+def make_real(
+    atlas: Atlas,
+    severity: float,
+    rng: np.random.Generator,
+    *,
+    goal: Point | None = None,
+    start: Point | None = None,
+    heading: float | None = None,
+    radius: float = 0.2,
+) -> MadeReal:
+    """Make a building of a drawing that has cells, for a robot of this radius [m].
+
+    The robot truly begins at `start` [drawing units, y up], or somewhere from where one can go to the `goal`,
+    and in another room if there is one. Raises StartError if it cannot stand there.
+    """
+    graph = atlas.cell_graph
+    assert graph is not None
+    proportions = proportions_of(atlas, graph, severity, rng)
+    walls = proportions.bent(atlas.sketch.segments)
+    openings = [proportions.world_from_sketch(gateway.segment) for gateway in graph.gateways]
+    kept_free = [proportions.world_from_sketch(np.array([place]))[0] for place in (goal, start) if place]
+    rooms = [carried_cell(cell, proportions) for cell in graph.cells]
+    rng_things, rng_doors, rng_people, rng_start = rng.spawn(4)
+    things = [piece for room in rooms for piece in furnish(room, openings, kept_free, severity, rng_things)]
+    world = World(
+        np.vstack([walls, *(outline_of(thing) for thing in things)]),
+        doors=tuple(hang_doors(openings, severity, rng_doors)),
+        people=tuple(invite(rooms, things, severity, rng_people)),
+    )
+    places = [kept_free[-1]] if start else candidates(graph, rooms, goal, rng_start)
+    return MadeReal(replace(world, start=stand(world, places, heading, radius, rng_start)), proportions)
+
+
+def proportions_of(atlas: Atlas, graph: CellGraph, severity: float, rng: np.random.Generator) -> Proportions:
+    """Draw proportions in which a robot fits through all passages, if the drawing allows it."""
+    drawn = Proportions.at_random(atlas.sketch.bounds, scale_of(atlas, graph), severity, rng)
+    widths = [width_of(drawn.world_from_sketch(gateway.segment)) for gateway in graph.gateways]
+    narrowest = max(min(widths, default=NARROWEST), 1e-6)
+    return drawn.scaled(min(max(NARROWEST / narrowest, 1.0), MOST_WIDENING))
+
+
+def scale_of(atlas: Atlas, graph: CellGraph) -> float:
+    """Choose how large the building is [m per drawing unit]: as the drawing says, else as its doors say."""
+    if atlas.sketch.metres_per_unit is not None:
+        return atlas.sketch.metres_per_unit
+    if not graph.gateways:
+        return math.exp(-atlas.log_scale)
+    by_doors = math.log(float(np.quantile([gateway.width for gateway in graph.gateways], 0.25)) / DOOR)
+    off = min(max(by_doors - atlas.log_scale, -TRUST_IN_DOORS), TRUST_IN_DOORS)
+    return math.exp(-(atlas.log_scale + off))
+
+
+def width_of(opening: Array) -> float:
+    """Measure an opening (2, 2) [m]."""
+    return float(np.hypot(*(opening[1] - opening[0])))
+
+
+def carried_cell(cell: Cell, proportions: Proportions) -> shapely.Polygon:
+    """Carry a cell to the world; its outline runs counter-clockwise."""
+    carried = shapely.transform(cell.polygon, proportions.world_from_sketch)
+    return shapely.orient_polygons(shapely.make_valid(carried) if not carried.is_valid else carried)
+
+
+def furnish(
+    room: shapely.Polygon,
+    openings: Sequence[Array],
+    kept_free: Sequence[Array],
+    severity: float,
+    rng: np.random.Generator,
+) -> list[shapely.Polygon]:
+    """Put furniture along the walls of a room, and some into it, so that a robot still gets everywhere."""
+    pieces: list[shapely.Polygon] = []
+    space = room.buffer(-ROBOT)
+    least = LEAST_LEFT * space.area
+    doors = shapely.union_all([shapely.LineString(opening) for opening in openings])
+    places = shapely.multipoints(np.array(kept_free).reshape(-1, 2))
+    for _ in range(rng.poisson(severity * room.area / AREA_A_PIECE)):
+        for _ in range(TRIES):
+            piece = place_piece(room, rng)
+            left = space.difference(piece.buffer(ROBOT))
+            is_clear = piece.distance(doors) > BEFORE_DOOR if openings else True
+            is_clear = is_clear and (not kept_free or piece.distance(places) > BEFORE_DOOR)
+            is_whole = left.geom_type == "Polygon" and left.area >= least
+            if is_clear and is_whole and room.buffer(0.02).covers(piece):
+                pieces.append(piece)
+                space = left
+                break
+    return pieces
+
+
+def place_piece(room: shapely.Polygon, rng: np.random.Generator) -> shapely.Polygon:
+    """Propose a piece of furniture: mostly with its back to a wall."""
+    ring = shapely.get_coordinates(room.exterior)
+    sides = np.diff(ring, axis=0)
+    lengths = np.hypot(sides[:, 0], sides[:, 1])
+    k = int(rng.choice(len(sides), p=lengths / lengths.sum()))
+    along = sides[k] / max(lengths[k], 1e-9)
+    inward = np.array([-along[1], along[0]])  # outlines run counter-clockwise
+    depth, length = rng.uniform(*DEPTH), rng.uniform(*LENGTH)
+    off_wall = 0.0 if rng.random() < 0.7 else rng.uniform(1.0, 3.0)
+    foot = ring[k] + rng.random() * sides[k] + off_wall * inward
+    half = 0.5 * length * along
+    return shapely.Polygon(
+        [foot - half, foot + half, foot + half + depth * inward, foot - half + depth * inward]
+    )
+
+
+def outline_of(piece: shapely.Polygon) -> Array:
+    """List the sides of a piece of furniture, (n, 4)."""
+    ring = shapely.get_coordinates(piece.exterior)
+    return np.column_stack([ring[:-1], ring[1:]])
+
+
+def hang_doors(openings: Sequence[Array], severity: float, rng: np.random.Generator) -> list[Door]:
+    """Give narrow passages a door; some close for a while."""
+    doors = []
+    for opening in openings:
+        closes, since, lasts = (
+            rng.random() < CLOSES * severity,
+            rng.uniform(20.0, 200.0),
+            rng.uniform(20.0, 60.0),
+        )
+        if width_of(opening) <= WIDEST_DOOR:
+            doors.append(Door(opening.ravel(), ((since, since + lasts),) if closes else ()))
+    return doors
+
+
+def invite(
+    rooms: Sequence[shapely.Polygon],
+    things: Sequence[shapely.Polygon],
+    severity: float,
+    rng: np.random.Generator,
+) -> list[Person]:
+    """Let people walk to and fro in rooms that are long enough, the larger the likelier."""
+    areas = np.array([room.area for room in rooms])
+    in_the_way = shapely.union_all(things)
+    people = []
+    for _ in range(min(rng.poisson(severity * areas.sum() / AREA_A_PERSON), MOST_PEOPLE)):
+        for _ in range(TRIES):
+            room = rooms[int(rng.choice(len(rooms), p=areas / areas.sum()))]
+            path = shapely.LineString(random_points(room, 2, rng))
+            if path.length > 2.0 and room.buffer(-ROBOT).covers(path) and path.distance(in_the_way) > ROBOT:
+                people.append(Person(Polyline(shapely.get_coordinates(path)), rng.uniform(0.5, 1.1)))
+                break
+    return people
+
+
+def candidates(
+    graph: CellGraph, rooms: Sequence[shapely.Polygon], goal: Point | None, rng: np.random.Generator
+) -> Array:
+    """Draw places to begin at: in rooms that are joined to that of the goal, but not in it if it can be."""
+    from pilotage.maps.routing.places import connected_cells
+
+    parts = connected_cells(graph)
+    goal_id = graph.cell_at(goal) if goal else ""
+    part = next((part for part in parts if goal_id in part), parts[0])
+    ids = sorted(part - {goal_id}) or sorted(part)
+    chosen = rng.choice(len(ids), size=100)
+    return np.vstack([random_points(rooms[graph.index_from_id[ids[k]]], 1, rng) for k in chosen])
+
+
+def stand(
+    world: World,
+    places: Sequence[Array] | Array,
+    heading: float | None,
+    radius: float,
+    rng: np.random.Generator,
+) -> Pose2:
+    """Stand at the first of these places that is free; StartError if none is."""
+    for x, y in places:
+        if world.is_free([(x, y)], radius + 0.1)[0]:
+            return Pose2(float(x), float(y), rng.uniform(-math.pi, math.pi) if heading is None else heading)
+    raise StartError("a robot must have room where it starts, found a wall or furniture")
+
+
+def random_points(room: shapely.Polygon, count: int, rng: np.random.Generator) -> Array:
+    """Draw points in a room, (count, 2)."""
+    left, bottom, right, top = room.bounds
+    drawn = rng.uniform((left, bottom), (right, top), size=(40 * count, 2))
+    inside = drawn[shapely.contains_properly(room, shapely.points(drawn))]
+    deepest = shapely.get_coordinates(room.representative_point())
+    return np.vstack([inside[:count], np.repeat(deepest, max(count - len(inside), 0), axis=0)])

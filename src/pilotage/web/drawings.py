@@ -1,0 +1,145 @@
+"""Read a drawing that a page sent, and tell a drawing to a page; both in a worker."""
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from pilotage.errors import FileError, PilotageError
+from pilotage.geometry import Array
+from pilotage.maps import SchematicMap
+from pilotage.web.order import Sent
+
+if TYPE_CHECKING:
+    from pilotage.io.maps import Drawing
+
+Json: TypeAlias = dict[str, object]
+Rows: TypeAlias = list[list[float]]
+
+DIGITS = 4
+"""Decimals of coordinates on a drawing whose diagonal is 1."""
+
+STROKE = 1.0 / 400.0
+"""Width of the strokes of a drawing that was made of an upload, as a share of its diagonal."""
+
+
+class UnreadableError(PilotageError):
+    """A drawing cannot be read; the message says why, without the name of a file that the user never saw."""
+
+
+def read_sent(sent: Sent) -> "Drawing":
+    """Read a drawing; UnreadableError if that fails."""
+    from pilotage.io.maps import open_drawing
+
+    with tempfile.TemporaryDirectory(prefix="pilotage-") as folder:
+        path = Path(folder) / f"drawing{sent.suffix}"
+        path.write_bytes(sent.content)
+        try:
+            return open_drawing(path)
+        except FileError as error:
+            raise UnreadableError(error.rule) from error
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """The axes of a page on which a drawing is shown: its units, y down, whatever its file says."""
+
+    sketch: SchematicMap
+
+    def points(self, points: Array) -> Rows:
+        """List points (n, 2) of the sketch."""
+        return rounded_rows(points * (1.0, -1.0), self.decimals)
+
+    def pose(self, x: float, y: float, heading: float) -> list[float]:
+        """List a pose of the sketch; headings are the same on page and sketch."""
+        (row,) = self.points(np.array([[x, y]]))
+        return [*row, round(heading, 3)]
+
+    def point(self, point: tuple[float, float] | None) -> list[float] | None:
+        """List a point of the sketch, if there is one."""
+        return None if point is None else self.points(np.array([point], dtype=np.float64))[0]
+
+    def file_point(self, x: float, y: float) -> tuple[float, float]:
+        """Carry a point of the page to the axes of the drawing's file, as `Navigator` takes it."""
+        return (x, y) if self.sketch.y_down else (x, -y)
+
+    def from_file(self, point: tuple[float, float]) -> list[float]:
+        """Carry a point from the axes of the drawing's file."""
+        return self.points(self.sketch.sketch_from_file(np.array([point], dtype=np.float64)))[0]
+
+    @property
+    def bounds(self) -> list[float]:
+        """Left, top, right and bottom."""
+        left, bottom, right, top = self.sketch.bounds
+        return [*self.points(np.array([[left, top]]))[0], *self.points(np.array([[right, bottom]]))[0]]
+
+    @property
+    def decimals(self) -> int:
+        """Decimals that mean something on a drawing of this size."""
+        return max(0, DIGITS - int(np.floor(np.log10(max(self.sketch.diagonal, 1e-9)))))
+
+
+def rounded_rows(rows: Array, decimals: int) -> Rows:
+    """List rows of numbers, rounded."""
+    listed: Rows = np.round(rows, decimals).tolist()
+    return listed
+
+
+def describe_drawing(sketch: SchematicMap) -> Json:
+    """List what was read of a drawing."""
+    page = Page(sketch)
+    return {
+        "bounds": page.bounds,
+        "strokes": [
+            {"points": page.points(stroke.vertices), "closed": stroke.closed} for stroke in sketch.strokes
+        ],
+        "labels": labels_of(sketch),
+        "start": page.point(sketch.start),
+        "goal": page.point(sketch.goal),
+    }
+
+
+def labels_of(sketch: SchematicMap) -> list[Json]:
+    """List the words of a drawing, and where they stand."""
+    if not sketch.labels:
+        return []
+    places = Page(sketch).points(np.array([label.position for label in sketch.labels]))
+    return [{"text": label.text, "x": x, "y": y} for label, (x, y) in zip(sketch.labels, places, strict=True)]
+
+
+def read_upload(sent: Sent) -> Json:
+    """Read a file of any kind, and make a drawing of it that can be drawn on."""
+    drawing = read_sent(sent)
+    sketch = drawing.sketch
+    notes = [f"{len(sketch.strokes)} strokes were taken for walls", *drawing.remarks]
+    if drawing.interpretation is not None:
+        notes += drawing.interpretation.sheet.left_out
+    return {**describe_drawing(sketch), "svg": svg_of(sketch), "notes": notes}
+
+
+def svg_of(sketch: SchematicMap) -> str:
+    """Write a drawing as SVG, with its marks by class, as `pilotage` reads them."""
+    page = Page(sketch)
+    left, top, right, bottom = page.bounds
+    width = sketch.diagonal * STROKE
+    margin = 4.0 * width
+    box = f"{left - margin:g} {top - margin:g} {right - left + 2 * margin:g} {bottom - top + 2 * margin:g}"
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
+    lines.append(f'<g fill="none" stroke="#1b1b1f" stroke-width="{width:g}">')
+    for stroke in sketch.strokes:
+        path = " L".join(f"{x:g} {y:g}" for x, y in page.points(stroke.vertices))
+        lines.append(f'<path d="M{path}{" Z" if stroke.closed else ""}"/>')
+    lines.append(f'</g><g font-size="{10.0 * width:g}" text-anchor="middle">')
+    lines += [
+        f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'
+        for label in labels_of(sketch)
+    ]
+    lines.append("</g>")
+    for role, point in (("start", sketch.start), ("goal", sketch.goal)):
+        if point is not None:
+            (x, y) = page.point(point) or (0.0, 0.0)
+            lines.append(f'<circle class="{role}" cx="{x:g}" cy="{y:g}" r="{3.0 * width:g}"/>')
+    return "\n".join([*lines, "</svg>", ""])

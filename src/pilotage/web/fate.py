@@ -1,0 +1,98 @@
+"""A person plays fate: carries the robot off, closes a door, puts a box or someone into the way.
+
+Each function changes the stage as a message of the page says, and returns what happened in words. What cannot
+be done raises OrderError or StartError, and changes nothing.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from pilotage.geometry import Array, Polyline, Pose2
+from pilotage.simulation import Door, Person, World
+from pilotage.web.order import FARTHEST, OrderError, number, switch
+from pilotage.web.stage import Stage
+
+NEAR_DOOR = 1.5
+"""A door is meant by a click within this distance [m]."""
+BOX, SMALLEST_BOX, LARGEST_BOX = 0.6, 0.1, 3.0
+"""Side [m] of a box if nothing is said, and between which it may be."""
+STROLL = 1.5
+"""How far [m] a person walks to either side, if there is room."""
+LEAST_STROLL = 0.05
+"""A person without room takes small steps [m]."""
+PERSON_ROOM = 0.3
+"""Space [m] that a person needs."""
+PERSON_SPEED = 0.7
+"""Speed [m/s] of someone who gets into the way."""
+
+Message = Mapping[str, object]
+
+
+def kidnap(stage: Stage, message: Message) -> str:
+    """Carry the robot elsewhere, unseen by its wheels."""
+    x, y = world_point(message)
+    heading = number(message, "heading", -FARTHEST, FARTHEST, stage.simulator.world_from_base.theta)
+    stage.simulator.carry(Pose2(x, y, heading))
+    return "the robot was carried elsewhere"
+
+
+def move_door(stage: Stage, message: Message) -> str:
+    """Close or open the nearest door, until a person changes it again."""
+    x, y = world_point(message)
+    closed = switch(message, "closed", otherwise=True)
+    world = stage.simulator.world
+    middles = np.array([door.segment.reshape(2, 2).mean(axis=0) for door in world.doors]).reshape(-1, 2)
+    distances = np.hypot(middles[:, 0] - x, middles[:, 1] - y)
+    if distances.min(initial=math.inf) > NEAR_DOOR:
+        raise OrderError(f"there is no door within {NEAR_DOOR} m")
+    chosen = int(distances.argmin())
+    leaf = Door(world.doors[chosen].segment, ((stage.stamp, math.inf),) if closed else ())
+    doors = (*world.doors[:chosen], leaf, *world.doors[chosen + 1 :])
+    stage.simulator.rebuild(replace(world, doors=doors))
+    return f"a door was {'closed' if closed else 'opened'}"
+
+
+def put_box(stage: Stage, message: Message) -> str:
+    """Put a box into the world."""
+    middle, size = np.array(world_point(message)), number(message, "size", SMALLEST_BOX, LARGEST_BOX, BOX)
+    robot = stage.simulator.world_from_base.position
+    if float(np.abs(robot - middle).max()) < size / 2.0 + stage.simulator.settings.body.radius:
+        raise OrderError("a box cannot stand where the robot is")
+    corners = middle + 0.5 * size * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    sides = np.hstack([corners, np.roll(corners, -1, axis=0)])
+    world = stage.simulator.world
+    stage.simulator.rebuild(replace(world, segments=np.vstack([world.segments, sides])))
+    stage.boxes = np.vstack([stage.boxes, sides])
+    return "a box was put there"
+
+
+def put_person(stage: Stage, message: Message) -> str:
+    """Let someone walk to and fro, across the way of the robot if there is room."""
+    here, world = np.array(world_point(message)), stage.simulator.world
+    if not world.is_free([here], PERSON_ROOM)[0]:
+        raise OrderError("a person cannot stand in a wall")
+    across = stage.simulator.world_from_base.rotation[:, 1]
+    ends = [here + sign * free_reach(world, here, sign * across) * across for sign in (-1.0, 1.0)]
+    person = Person(Polyline(np.array(ends)), speed=PERSON_SPEED)
+    stage.simulator.rebuild(replace(world, people=(*world.people, person)))
+    return "someone walks there"
+
+
+def world_point(message: Message) -> tuple[float, float]:
+    """Read a point of the world [m], and turn its y axis up."""
+    return number(message, "x", -FARTHEST, FARTHEST), -number(message, "y", -FARTHEST, FARTHEST)
+
+
+def free_reach(world: World, here: Array, along: Array) -> float:
+    """Return how far one can walk in a direction (2,) of length 1 [m], from LEAST_STROLL to STROLL."""
+    steps = np.linspace(LEAST_STROLL, STROLL, 16)
+    is_free = world.is_free(here + steps[:, np.newaxis] * along, PERSON_ROOM)
+    count = len(steps) if is_free.all() else int(np.argmin(is_free))
+    return float(steps[:count].max(initial=LEAST_STROLL))
+
+
+FATES = {"kidnap": kidnap, "door": move_door, "box": put_box, "person": put_person}
+"""What each message does."""

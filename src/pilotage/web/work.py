@@ -1,0 +1,26 @@
+"""What workers do, by name: light to import, so that the server stays so; each loads what it needs."""
+
+from multiprocessing.connection import Connection
+
+from pilotage.web.order import Order, Place, Sent
+
+
+def drive(connection: Connection, order: Order) -> None:
+    """Drive, until the server ends it."""
+    from pilotage.web.driver import drive_in_worker
+
+    drive_in_worker(connection, order)
+
+
+def understand(sent: Sent, ends: tuple[Place, Place] | None) -> dict[str, object]:
+    """Say what is understood of a drawing."""
+    from pilotage.web import understanding
+
+    return understanding.understand(sent, ends)
+
+
+def read_upload(sent: Sent) -> dict[str, object]:
+    """Read a file that a person dropped on the page."""
+    from pilotage.web import drawings
+
+    return drawings.read_upload(sent)

@@ -1,0 +1,170 @@
+"""What `check` says about drawings that are wrong in one way each."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+import pilotage
+from pilotage import worlds
+from pilotage.findings import MendKind, Severity, for_ends, report, worst
+from pilotage.geometry import Polyline
+from pilotage.io import open_map
+from pilotage.maps import Label, SchematicMap
+
+BOX = [(0, 0), (20, 0), (20, 12), (0, 12), (0, 0)]
+CORRIDOR_AND_FOUR_ROOMS = (
+    BOX,
+    [(10, 0), (10, 5)],
+    [(10, 7), (10, 12)],
+    [(0, 5), (4, 5)],
+    [(5, 5), (14, 5)],
+    [(15, 5), (20, 5)],
+    [(0, 7), (4, 7)],
+    [(5, 7), (14, 7)],
+    [(15, 7), (20, 7)],
+)
+NAMES = (
+    Label("Ann", (5.0, 2.0)),
+    Label("Ben", (15.0, 2.0)),
+    Label("Cid", (5.0, 10.0)),
+    Label("Dora", (15.0, 10.0)),
+    Label("Corridor", (10.0, 6.0)),
+)
+
+
+def drawing(*strokes, labels=NAMES, **changes):
+    return SchematicMap(tuple(Polyline.through(stroke) for stroke in strokes), labels=labels, **changes)
+
+
+def kinds(sketch):
+    return {finding.kind: finding for finding in pilotage.check(sketch)}
+
+
+GOOD = drawing(*CORRIDOR_AND_FOUR_ROOMS)
+DOOR_OF_BEN = ([(14, 5), (15, 5)],)
+
+
+def test_nothing_is_wrong_with_a_good_drawing():
+    assert () == pilotage.check(GOOD)
+
+
+@pytest.mark.parametrize("world", worlds.ALL, ids=lambda world: world.name)
+def test_the_packed_drawings_have_no_worse_findings_than_notes(world):
+    for path in (world.careful, world.quick):
+        assert worst(pilotage.check(open_map(path))) is None
+
+
+def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():
+    found = worst(pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN)))
+
+    assert found is not None
+    assert found.kind in {"room-without-door", "closed-area"}
+    assert "'Ben'" in found.text
+    assert found.mend is not None
+    assert MendKind.CUT is found.mend.kind
+    ends = np.array(found.mend.segment)
+    assert np.hypot(*(ends[1] - ends[0])) == pytest.approx(1.0, rel=0.3)
+    assert shapely.LineString(ends).distance(shapely.box(10, 0, 20, 5).exterior) < 0.1
+
+
+def test_labels_outside_of_rooms_are_told_in_one_finding():
+    found = kinds(replace(GOOD, labels=(*NAMES, Label("Plan of 1998", (10.0, 15.0)), Label("N", (25, 1)))))
+
+    assert "'Plan of 1998' and 'N' stand outside of all rooms" == found["label-outside"].text
+
+
+def test_rooms_of_one_name_and_names_in_one_room_are_told():
+    doubled = (*NAMES[:1], Label("ann", (15.0, 2.0)), Label("Lab", (15.0, 10.0)), Label("Store", (16.0, 9.0)))
+    found = kinds(replace(GOOD, labels=doubled))
+
+    assert {"ann", "ann-2"} == set(found["same-name"].cell_ids)
+    assert "'Lab' and 'Store'" in found["several-names"].text
+
+
+def test_a_drawing_without_words_says_how_to_name_rooms():
+    assert "--label" in kinds(replace(GOOD, labels=()))["no-names"].advice
+
+
+def test_two_buildings_on_one_sheet_are_told():
+    moved = [[(x + 40, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
+    found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
+
+    assert Severity.WARNING is found["two-buildings"].severity
+    assert 5 == len(found["two-buildings"].cell_ids)
+
+
+def test_a_wing_without_a_way_to_it_is_told_with_a_door():
+    wing = ([(20, 0), (30, 0), (30, 12), (20, 12)], [(20, 6), (24, 6)], [(25, 6), (30, 6)])
+    found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *wing))
+
+    assert 2 == len(found["unreachable"].cell_ids)
+    assert found["unreachable"].mend is not None
+
+
+def test_strokes_far_outside_are_told_where_they_are():
+    found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, [(60, 0), (61, 3)]))
+
+    assert Severity.WARNING is found["far-strokes"].severity
+    assert (60.0, 0.0) == found["far-strokes"].where
+
+
+def test_a_door_that_is_too_narrow_is_told():
+    narrow = [stroke for stroke in CORRIDOR_AND_FOUR_ROOMS if stroke != [(15, 5), (20, 5)]]
+    found = kinds(drawing(*narrow, [(14.2, 5), (20, 5)]))
+
+    assert (14.1, 5.0) == pytest.approx(found["closed-gap"].where, abs=1e-3)
+    assert {"ben", "corridor"} == set(found["closed-gap"].cell_ids)
+
+
+def test_a_gap_that_counts_as_a_door_but_is_narrow_is_told():
+    narrow = [stroke for stroke in CORRIDOR_AND_FOUR_ROOMS if stroke != [(15, 5), (20, 5)]]
+    found = kinds(drawing(*narrow, [(14.3, 5), (20, 5)]))
+
+    assert MendKind.CLOSE is found["narrow-gateway"].mend.kind
+
+
+@pytest.mark.parametrize(("metres", "is_told"), [(0.001, True), (1.0, False), (1000.0, True)])
+def test_a_scale_that_no_building_has_is_told(metres, is_told):
+    assert is_told == ("absurd-scale" in kinds(replace(GOOD, metres_per_unit=metres)))
+
+
+def test_a_drawing_that_encloses_nothing_is_an_error_with_the_gap_to_close():
+    found = worst(pilotage.check(drawing([(0, 0), (10, 0), (10, 10)], [(0, 9), (0, 0.5)], labels=())))
+
+    assert found is not None
+    assert ("nothing-enclosed", Severity.ERROR) == (found.kind, found.severity)
+    assert found.mend is not None
+    assert MendKind.CLOSE is found.mend.kind
+
+
+def test_a_start_in_a_wall_and_a_goal_without_a_way_are_errors():
+    outside = replace(GOOD, start=(50.0, 50.0), goal=(5.0, 2.0))
+
+    assert ["bad-start"] == [finding.kind for finding in pilotage.check(outside)]
+    other = for_ends(report(outside), (5.0, 2.0), (50.0, 50.0))
+    assert ["bad-goal"] == [finding.kind for finding in other.findings]
+
+
+def test_findings_are_in_the_axes_of_the_file():
+    sketch = drawing(*CORRIDOR_AND_FOUR_ROOMS, [(60, 3), (61, 4)], y_down=True)
+
+    assert (60.0, -3.0) == kinds(sketch)["far-strokes"].where
+
+
+def test_a_finding_is_one_line_and_fits_into_json():
+    for finding in pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN)):
+        assert 1 == len(str(finding).splitlines())
+        assert json.loads(json.dumps(finding.as_json))["kind"] == finding.kind
+
+
+@given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=2, max_size=12))
+def test_any_scribble_has_an_answer_and_the_worst_comes_first(points):
+    findings = pilotage.check(drawing(points, labels=(Label("x", (3.0, 3.0)),)))
+    order = [list(Severity).index(finding.severity) for finding in findings]
+
+    assert order == sorted(order)
