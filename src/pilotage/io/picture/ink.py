@@ -64,10 +64,11 @@ def is_ruled(faint: Mask) -> bool:
 def on_lines(faint: Mask) -> int:
     """Count pixels on lines across the paper, as steep as most of them are."""
     rows, columns = np.nonzero(faint)
-    height, width = faint.shape
+    width = faint.shape[1]
+    reach = int(STEEPEST * width) + 1  # so that no row is below 0
     best = 0
     for slant in np.linspace(-STEEPEST, STEEPEST, SLANTS):
-        row = np.round(rows + slant * columns).astype(np.int64) + height
-        counts = np.bincount(row, minlength=3 * height)
+        row = np.round(rows + slant * columns).astype(np.int64) + reach
+        counts = np.bincount(row, minlength=1)
         best = max(best, int(counts[counts > ACROSS * width].sum()))
     return best
