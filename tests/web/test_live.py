@@ -177,3 +177,20 @@ def test_a_drawing_of_the_folder_drives_in_a_world_of_the_folder(client: TestCli
 
     assert [30.0, 30.0] == session["drawing"]["goal"]
     assert frame["world"]["on_drawing"] is None
+
+
+def test_a_log_is_localized_live_and_can_only_be_watched(client: TestClient) -> None:
+    with talking(client) as talk:
+        talk.say("start", drawing="example:office/quick", log="packed:office", speed=20)
+        session = talk.hear("session")
+        frame = talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
+        talk.say("box", x=0, y=0)
+        assert "only be watched" in talk.hear("error")["text"]
+        talk.say("goal", goal="Ana")
+        assert "cannot be driven" in talk.hear("error")["text"]
+
+    assert frame["world"] is None
+    assert 750 == len(frame["believed"]["particles"])
+    assert frame["text"].startswith(("lost", "in "))
+    refused = client.get(f"/api/sessions/{session['session']}/journal")
+    assert (504, "a log can only be watched") == (refused.status_code, refused.json()["error"])
