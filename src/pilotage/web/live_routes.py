@@ -106,6 +106,8 @@ async def obey(message: Message, session: Session, client: Client) -> None:
     kind = message.get("type")
     if kind in PASSED_ON:
         await asyncio.to_thread(session.tell, message)
+    elif kind == "seen":
+        client.saw()
     elif kind == "scrub":
         try:
             t = message.get("t")
