@@ -160,7 +160,7 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
     noise = tmp_path / "noise.png"
     noise.write_bytes(b"no picture")
 
-    with pytest.raises(FileError, match="at least one stroke"):
+    with pytest.raises(FileError, match="stroke, found none"):
         open_map(blank)
     with pytest.raises(FileError, match="cannot be read"):
         open_map(noise)

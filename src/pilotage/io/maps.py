@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from pilotage.errors import FileError
-from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, interpret
+from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
 from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
-from pilotage.io.raster import SUFFIXES, PictureKind, read_map_server, read_raster
+from pilotage.io.raster import SUFFIXES, PictureKind, read_map_server, read_sheet_or_plan
 from pilotage.io.svg import read_svg_sheet
 from pilotage.maps import Label, SchematicMap
 
@@ -76,13 +76,19 @@ def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpr
     """Read a drawing by the reader of its kind, and understand its marks if it has any."""
     suffix = file.suffix.lower()
     if suffix in SUFFIXES:
-        return read_raster(file, KINDS[hints.shading]), None
+        seen = read_sheet_or_plan(file, KINDS[hints.shading])
+        return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
     if hints.shading is not Shading.RECOGNIZED:
         raise FileError(f"only pictures have a shading, {hints.shading.value} is asked for", file)
     if suffix in (".yaml", ".yml"):
         return read_map_server(file), None
+    return understood(read_svg_sheet(file), file, hints)
+
+
+def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation]:
+    """Give the marks of a sheet a meaning."""
     try:
-        interpretation = interpret(read_svg_sheet(file), Hints(hints.layers))
+        interpretation = interpret(sheet, Hints(hints.layers))
     except NoWallsError as error:
         raise FileError(str(error), file) from error
     return interpretation.sketch, interpretation
