@@ -88,11 +88,13 @@ def test_a_person_may_play_fate(client: TestClient) -> None:
 def test_what_cannot_be_done_is_said_and_the_drive_goes_on(client: TestClient) -> None:
     with talking(client) as talk:
         talk.start(paused=True)
+        corner = talk.hear("world")["walls"][0]
         for kind, fields, words in (
             ("speed", {"speed": 500}, "from 1 to 20"),
             ("goal", {"goal": "attic"}, "attic"),
             ("door", {"x": 1e6, "y": 0}, "no door within"),
             ("person", {"x": "here"}, "x must be a number"),
+            ("kidnap", {"x": corner[0], "y": corner[1]}, "cannot stand there"),
             ("scrub", {"t": "then"}, "t must be a number"),
         ):
             talk.say(kind, **fields)
