@@ -192,8 +192,10 @@ def test_a_file_that_is_not_a_picture_is_never_handed_to_another_program(tmp_pat
     path = tmp_path / "page.png"
     path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n%%EOF\n")
 
-    with pytest.raises(FileError, match="a picture cannot be read"):
+    with pytest.raises(FileError, match="a PostScript drawing cannot be read"):
         open_map(path)
+    with pytest.raises(FileError, match="a picture cannot be read"):
+        read_picture(path)
 
 
 def test_a_broken_chunk_of_a_png_is_refused(tmp_path):

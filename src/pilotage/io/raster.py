@@ -102,9 +102,13 @@ def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> Schem
 
 def read_sheet_or_plan(path: Path, kind: PictureKind) -> Sheet | SchematicMap:
     """Read the marks of a line drawing, or the free space of a filled plan."""
+    return sheet_or_plan(read_picture(path), kind, path)
+
+
+def sheet_or_plan(picture: Picture, kind: PictureKind, path: Path) -> Sheet | SchematicMap:
+    """Find the marks of a line drawing, or the free space of a filled plan, in a picture."""
     from pilotage.io.picture import sheet_of
 
-    picture = read_picture(path)
     if kind is PictureKind.RECOGNIZED:
         kind = recognize(picture)
     if kind is PictureKind.LINES:
