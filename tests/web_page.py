@@ -39,6 +39,7 @@ class Sheet:
         """Write words."""
         self.page.keyboard.press("t")
         self.page.mouse.click(x, y)
+        self.page.locator("textarea.excalidraw-wysiwyg").wait_for()
         self.page.keyboard.type(words)
         self.page.keyboard.press("Escape")
 
