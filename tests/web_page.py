@@ -75,7 +75,7 @@ class Sheet:
         """Start a drive through this drawing, made real."""
         self.page.get_by_role("button", name="Drive", exact=True).click()
         self.page.get_by_label("How wrong the drawing is").fill(str(severity))
-        self.page.get_by_label("Speed").select_option(str(speed))
+        self.page.get_by_role("combobox", name="Speed").select_option(str(speed))
         self.page.get_by_test_id("go").click()
         expect(self.page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
 
@@ -110,4 +110,4 @@ class Sheet:
 
     def ended(self, outcome: str) -> None:
         """Wait until the drive has ended like this."""
-        expect(self.status).to_have_attribute("data-outcome", re.compile(outcome), timeout=2 * PATIENCE_MS)
+        expect(self.status).to_have_attribute("data-outcome", re.compile(outcome), timeout=8 * PATIENCE_MS)

@@ -99,7 +99,9 @@ def test_a_measure_gives_the_sizes_of_rooms(sheet: Sheet, folder: Path) -> None:
 def test_all_of_it_works_by_keyboard(page: Page, sheet: Sheet) -> None:
     page.get_by_role("button", name="office, careful").press("Enter")
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
-    page.get_by_role("toolbar", name="Tools of the drawing table").get_by_role("button", name="Goal").press("Enter")
+    page.get_by_role("toolbar", name="Tools of the drawing table").get_by_role("button", name="Goal").press(
+        "Enter"
+    )
     layer = page.get_by_test_id("tool-layer")
     layer.press("ArrowLeft")
     layer.press("Enter")

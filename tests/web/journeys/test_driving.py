@@ -23,7 +23,10 @@ def pick_up(sheet: Sheet) -> tuple[float, float]:
     """Return where on the screen the robot is, in a drive that stands."""
     sheet.page.get_by_role("button", name="Pause").click()
     expect(sheet.page.get_by_role("button", name="Go on")).to_be_visible()
-    x, y = (float(part) for part in (sheet.page.get_by_test_id("world").get_attribute("data-robot") or "").split(","))
+    x, y = (
+        float(part)
+        for part in (sheet.page.get_by_test_id("world").get_attribute("data-robot") or "").split(",")
+    )
     return sheet.in_world(x, y)
 
 
@@ -46,9 +49,9 @@ def test_a_kidnapped_robot_doubts_and_finds_itself_again(sheet: Sheet) -> None:
     sheet.page.get_by_role("button", name="office, careful").click()
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
     sheet.page.get_by_role("button", name="Drive", exact=True).click()
-    sheet.page.get_by_label("World").select_option("packed:office")
-    sheet.page.get_by_label("Goal", exact=True).select_option("Ana")
-    sheet.page.get_by_label("Speed").select_option("10")
+    sheet.page.get_by_role("combobox", name="World").select_option("packed:office")
+    sheet.page.get_by_role("combobox", name="Goal").select_option("Ana")
+    sheet.page.get_by_role("combobox", name="Speed").select_option("10")
     sheet.page.get_by_test_id("go").click()
     expect(sheet.marks).to_contain_text("believes", timeout=2 * PATIENCE_MS)
     robot = pick_up(sheet)
@@ -71,12 +74,14 @@ def test_a_closed_door_is_told_and_a_reload_goes_on_with_the_drive(sheet: Sheet)
     page.get_by_role("button", name="office, careful").click()
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
     page.get_by_role("button", name="Drive", exact=True).click()
-    page.get_by_label("World").select_option("packed:office")
-    page.get_by_label("Goal", exact=True).select_option("Ana")
+    page.get_by_role("combobox", name="World").select_option("packed:office")
+    page.get_by_role("combobox", name="Goal").select_option("Ana")
     page.get_by_test_id("go").click()
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
     page.get_by_role("button", name="Door", exact=True).click()
-    x, y = (float(part) for part in (page.get_by_test_id("world").get_attribute("data-door") or "").split(","))
+    x, y = (
+        float(part) for part in (page.get_by_test_id("world").get_attribute("data-door") or "").split(",")
+    )
     page.mouse.click(*sheet.in_world(x, y))
 
     expect(sheet.marks).to_contain_text("door", timeout=PATIENCE_MS)
@@ -104,5 +109,8 @@ def serious(page: Page) -> list[str]:
     """List what axe-core finds that is serious or worse."""
     found = Axe().run(page).response["violations"]
     return [
-        f"{one['id']}: {node['html'][:160]}" for one in found if one["impact"] in SERIOUS for node in one["nodes"]
+        f"{one['id']}: {node['html'][:160]}"
+        for one in found
+        if one["impact"] in SERIOUS
+        for node in one["nodes"]
     ]
