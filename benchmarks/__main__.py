@@ -32,13 +32,15 @@ NAMES = (
     "segmentation",
     "cells",
     "plans",
+    "logs",
+    "ros",
     "mpeg7",
     "shape",
     "simulation",
     "soak",
     "worlds_from_logs",
 )
-WITHOUT_DATA = ("shape", "simulation", "soak")
+WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak")
 TOOLS = ("readme", "fetch")
 BESIDE = {
     "json",

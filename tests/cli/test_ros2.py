@@ -14,7 +14,7 @@ DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
         ((*DRIVE, "--braking", "-1"), "it must be positive, got -1.0"),
         (("--localize-only", "--drive"), "must be given to drive"),
         (("--localize-only", "--goal", "kitchen"), "excludes --drive and --goal"),
-        (("--domain", "900"), "not in the range"),
+        (("--domain", "900"), "less than or equal to 232"),
     ],
 )
 def test_a_drive_by_guessed_limits_is_refused(pilotage, words, rule):

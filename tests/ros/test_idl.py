@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from bag_making import Maker
+from benchmarks.lib.bag_making import Maker
 
 from pilotage import Pose2
 from pilotage.io.bags import outgoing

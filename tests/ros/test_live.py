@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from dds_robot import TWIST_TYPE, DdsRobot, run_together
+from benchmarks.lib.dds_robot import TWIST_TYPE, DdsRobot, run_together
 
 from pilotage import Settings, open_map, open_world, worlds
 from pilotage.drives.loop import put_down

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from bag_making import Maker
+from benchmarks.lib.bag_making import Maker
 from hypothesis import given
 from hypothesis import strategies as st
 

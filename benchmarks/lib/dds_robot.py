@@ -3,12 +3,16 @@
 import math
 import os
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from pilotage import Pose2, Twist
 from pilotage.io.bags import outgoing
 from pilotage.io.bags.messages import ODOMETRY_TYPE, SCAN_TYPE
+from pilotage.ros.node import Node
+from pilotage.ros.robot import LiveRobot
 from pilotage.simulation import Simulator
 
 LOOPBACK = """<CycloneDDS><Domain Id="any"><General><Interfaces><NetworkInterface name="lo"/></Interfaces>
@@ -21,7 +25,8 @@ OBEYED_FOR = 0.5
 os.environ["CYCLONEDDS_URI"] = LOOPBACK  # tests stay on this machine
 
 
-def odometry_message(stamp, pose, twist):
+def odometry_message(stamp: float, pose: Pose2, twist: Twist) -> Any:  # noqa: ANN401  # made at run time
+    """Make a nav_msgs/Odometry."""
     zero = np.zeros(36)
     return outgoing.make(
         "nav_msgs/Odometry",
@@ -35,7 +40,7 @@ def odometry_message(stamp, pose, twist):
 class DdsRobot:
     """Steps a simulator, and tells and hears as a robot does; `loss` is the share of messages lost."""
 
-    def __init__(self, node, simulator: Simulator, loss=0.0, seed=0):
+    def __init__(self, node: Node, simulator: Simulator, loss: float = 0.0, seed: int = 0) -> None:
         self.node, self.simulator, self.loss = node, simulator, loss
         self.rng = np.random.default_rng(seed)
         self.scans, self.odometry = node.advertise("scan", SCAN_TYPE), node.advertise("odom", ODOMETRY_TYPE)
@@ -45,7 +50,7 @@ class DdsRobot:
         self.shift = 0.0
         self.mounts.publish(outgoing.transform(0.0, "base_link", "laser", Pose2.identity()))
 
-    def tell(self):
+    def tell(self) -> None:
         """Publish what is sensed now."""
         reading, stamp = self.simulator.read(), self.simulator.stamp + 1000.0 + self.shift
         odom_from_base = reading.odometry.odom_from_base
@@ -56,21 +61,23 @@ class DdsRobot:
         if self.rng.random() >= self.loss:
             self.scans.publish(scan)
 
-    def hear(self):
+    def hear(self) -> None:
         """Take the last command that came."""
         for message in self.commands.take():
             if self.rng.random() >= self.loss:
                 self.command = Twist(message.linear.x, message.angular.z)
                 self.commanded = self.simulator.stamp
 
-    def step(self):
+    def step(self) -> None:
         """Obey for one time step."""
         if self.simulator.stamp - self.commanded > OBEYED_FOR:
             self.command = Twist(0.0, 0.0)
         self.simulator.step(self.command)
 
 
-def run_together(robot: DdsRobot, live, seconds: float, until=lambda: False):
+def run_together(
+    robot: DdsRobot, live: LiveRobot, seconds: float, until: Callable[[], bool] = lambda: False
+) -> list[float]:
     """Step the robot, and let the live side answer, as fast as both can; return the times of answers [s].
 
     The clock of the live side must be that of the simulation.
