@@ -25,6 +25,9 @@ NAMES = (
     "calibration",
     "kidnap",
     "mismatch",
+    "ladder",
+    "looks",
+    "people",
     "tracking",
     "navigation",
     "registration",
@@ -38,9 +41,10 @@ NAMES = (
     "shape",
     "simulation",
     "soak",
+    "table",
     "worlds_from_logs",
 )
-WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak")
+WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak", "table")
 TOOLS = ("readme", "fetch")
 BESIDE = {
     "json",

@@ -12,8 +12,10 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
+from benchmarks.lib import people
 from benchmarks.lib.data import LOGS, ROOT, drawing_of, folder_of
 from benchmarks.lib.results import commit_of
+from benchmarks.lib.rungs import is_rung, rung_of
 from pilotage.evaluation.episodes import Trace, follow, spread_episodes, way_along
 from pilotage.evaluation.rooms import Rooms, read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.trajectory import associate
@@ -75,6 +77,10 @@ class Followed:
 @cache
 def travel_of(building: str, hand: str) -> Travel:
     """Read the log of a building; its rooms are divided as in the truth about the drawing."""
+    if building == people.SKETCHED:
+        readings, positions = people.run()
+        truths = people.regions_of(hand)[1].names_at(positions)
+        return Travel(readings, positions, truths, way_along(positions))
     log = open_log(LOGS / f"{building}.log.gz")
     truth = read_trajectory(LOGS / f"{building}.truth.tum")
     stamps = np.array([reading.scan.stamp for reading in log])
@@ -85,12 +91,18 @@ def travel_of(building: str, hand: str) -> Travel:
 
 @cache
 def sketch_of(building: str, hand: str) -> Sketch:
-    """Read a drawing."""
-    path = drawing_of(building, hand)
-    drawing = open_map(path)
+    """Read a drawing, or make it if it is one of the ladder."""
+    if is_rung(hand):
+        plan = rung_of(building, hand)
+        drawing, rooms = plan.sketch, plan.rooms
+    elif building == people.SKETCHED:
+        drawing, rooms = open_map(people.FOLDER / f"{hand}.png"), people.regions_of(hand)[0]
+    else:
+        path = drawing_of(building, hand)
+        drawing, rooms = open_map(path), read_drawn_rooms(path.with_suffix(".json"))
     began = time.perf_counter()
     atlas = build_atlas(drawing, AtlasSettings())
-    return Sketch(atlas, read_drawn_rooms(path.with_suffix(".json")), time.perf_counter() - began)
+    return Sketch(atlas, rooms, time.perf_counter() - began)
 
 
 def follow_task(task: Task) -> Followed:

@@ -23,7 +23,7 @@ from pilotage.interpretation.solids import (
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
 
-USUAL_GAP = 0.04
+USUAL_GAP = 0.08
 """The same where no door is drawn, as a share of the drawing's diagonal."""
 
 PALE = 0.4
@@ -67,7 +67,9 @@ def find_walls(
         walls = shapely.difference(filled_between(lines, solid, thickness), openings)
         walls = touching(walls, solid)
         if are_walls(walls, lines, gap):
-            return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness)
+            return Walls(
+                walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness
+            )
     faced = greatest_thickness(lines, width, diagonal)
     if faced is not None:
         walls = shapely.difference(filled_between(lines, solid, faced), openings)

@@ -1,0 +1,171 @@
+"""Localize on drawings in people's manner, from true to as people draw, and tell how often the room is right.
+
+    python -m benchmarks ladder [--severities 0,0.5,1] [--people N] [--episodes N] [--buildings A,B]
+        [--statistics] [--figure FILE]
+
+The true plan of a building, as `draftsman` drew it, is deformed: proportions room by room, doors, what is
+left out, and the hand itself (`pilotage.evaluation.deformation`). At severity 1 it is as far from the truth
+as drawings by people are. Each drawing of each person gets the episodes of `localization`: 40 m of a real log,
+nothing told. `--statistics` only measures the drawings at severity 1 beside `freehand`, a drawing by a
+person, by the same code; `--figure` writes a picture of one building at six severities.
+"""
+
+import argparse
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.lib.arguments import add_jobs, names_of, positive
+from benchmarks.lib.data import BUILDINGS, LOGS, drawing_of, folder_of
+from benchmarks.lib.protocols import Followed, Task, follow_all
+from benchmarks.lib.results import Figures
+from benchmarks.lib.rungs import plan_of, rung_name
+from pilotage.evaluation.deformation import Plan, Statistics, deform, read_plan, statistics_of
+from pilotage.evaluation.episodes import score
+from pilotage.evaluation.rooms import read_world_rooms
+from pilotage.io.tum import read_trajectory
+
+SEVERITIES = (0.5, 1.0)
+SHOWN = (0.0, 0.25, 0.5, 0.75, 1.0, 1.25)
+SHOWN_BUILDING = "csail"
+PEOPLE, EPISODES = 2, 3
+KNOWN_OF_PEOPLE = {
+    "scale_p10": "0.64",
+    "scale_p90": "1.55",
+    "stretch_median": "1.7 to 1.9",
+    "stretch_p90": "2.7 to 3.9",
+    "similarity_miss": "1.7 to 4",
+    "crossing": "0.01 to 0.04",
+    "undrawn": "up to 0.14",
+    "rooms_missing": "up to 0.25",
+}
+"""What was measured of drawings by people that are not among the data, for comparison."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Choose rungs."""
+    parser.add_argument(
+        "--severities",
+        type=severities,
+        default=",".join(map(str, SEVERITIES)),
+        help="(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
+    )
+    parser.add_argument(
+        "--people", type=positive, default=PEOPLE, help="drawings of each (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--first-person", type=int, default=0, help="seed of the first (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--episodes", type=positive, default=EPISODES, help="for each drawing (default: %(default)s)"
+    )
+    parser.add_argument("--statistics", action="store_true", help="only measure the drawings")
+    parser.add_argument("--figure", type=Path, help="only draw one building at six severities")
+    add_jobs(parser)
+
+
+def severities(text: str) -> list[float]:
+    """Read severities separated by commas."""
+    try:
+        values = [float(word) for word in text.split(",")]
+    except ValueError:
+        values = [-1.0]
+    if not all(0.0 <= value <= max(SHOWN) for value in values):
+        raise argparse.ArgumentTypeError(f"must be numbers from 0 to {max(SHOWN)}, got {text}")
+    return values
+
+
+def measure(arguments: argparse.Namespace) -> Figures:
+    """Run all episodes, or only measure or draw; return the figures."""
+    if arguments.figure:
+        draw_strip(arguments.figure)
+        return {}
+    persons = range(arguments.first_person, arguments.first_person + arguments.people)
+    if arguments.statistics:
+        return {"statistics": measure_drawings(arguments.buildings, persons)}
+    tasks = [
+        Task(building, rung_name(severity, person), arguments.episodes)
+        for severity in arguments.severities
+        for building in arguments.buildings
+        for person in persons
+    ]
+    followed = list(follow_all(tasks, arguments.jobs, reuse=False))
+    rows: Figures = {}
+    print(f"{'severity':>8s} {'building':13s}{'room at end':>12s}{'last 10 m':>11s}{'sure+wrong':>12s}")
+    for severity in arguments.severities:
+        rungs = {rung_name(severity, person) for person in persons}
+        row = {
+            building: summarize(
+                [one for one in followed if one.task.building == building and one.task.hand in rungs]
+            )
+            for building in arguments.buildings
+        }
+        row["mean"] = mean_of(list(row.values()))
+        rows[f"{severity:g}"] = row
+        for building, one in row.items():
+            print(
+                f"{severity:8g} {building:13s}{one['room_end']:12.2f}{one['room_last10']:11.2f}"
+                f"{one['confident_wrong']:12.3f}",
+                flush=True,
+            )
+    return rows
+
+
+def summarize(followed: Sequence[Followed]) -> Figures:
+    """Average the scores of all episodes that count."""
+    scores = [score(trace) for one in followed for trace in one.traces if trace.counted.any()]
+    return {
+        "room_end": float(np.mean([one.right_at_end for one in scores])),
+        "room_last10": float(np.mean([one.right_last for one in scores])),
+        "confident_wrong": float(np.mean([one.sure_and_wrong for one in scores])),
+    }
+
+
+def mean_of(rows: Sequence[Figures]) -> Figures:
+    """Average figures by name."""
+    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+
+
+def measure_drawings(buildings: Sequence[str], persons: Iterable[int]) -> Figures:
+    """Print how far drawings at severity 1 are from the truth, beside drawings by people."""
+    people = list(persons)
+    ladder = mean_of(
+        [
+            asdict(drawing_statistics(deform(plan_of(building), 1.0, person), building, "draftsman"))
+            for building in buildings
+            for person in people
+        ]
+    )
+    freehand = asdict(
+        drawing_statistics(read_plan(drawing_of("belgioioso", "freehand")), "belgioioso", "freehand")
+    )
+    print(f"{'':16s}{'ladder':>9s}{'freehand':>10s}{'people':>14s}")
+    for name, value in ladder.items():
+        print(f"{name:16s}{value:9.2f}{freehand[name]:10.2f}{KNOWN_OF_PEOPLE[name]:>14s}")
+    return {"ladder": ladder, "freehand": freehand}
+
+
+def drawing_statistics(plan: Plan, building: str, hand: str) -> Statistics:
+    """Measure a drawing along the way of the log."""
+    way = read_trajectory(LOGS / f"{building}.truth.tum").poses[:, :2]
+    return statistics_of(plan, way, read_world_rooms(folder_of(building, hand) / "rooms.geojson"))
+
+
+def draw_strip(path: Path) -> None:
+    """Draw one building at six severities."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, len(SHOWN), figsize=(3.0 * len(SHOWN), 3.2), layout="constrained")
+    for axis, severity in zip(axes, SHOWN, strict=True):
+        for line in deform(plan_of(SHOWN_BUILDING), severity, 1).strokes.geoms:
+            axis.plot(*line.xy, color="black", linewidth=0.8)
+        axis.set(aspect="equal", title=f"{severity:g}")
+        axis.axis("off")
+    figure.savefig(path)
+    plt.close(figure)
+    print(f"drew {path}")

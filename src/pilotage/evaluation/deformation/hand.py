@@ -1,0 +1,45 @@
+"""The hand: tremor, ends that run over or fall short, angles that are off."""
+
+import math
+
+import numpy as np
+import shapely
+from scipy.ndimage import gaussian_filter1d
+
+from pilotage.geometry import Array
+
+STEP = 0.5
+"""[m] Between the points of a stroke that trembles."""
+TREMOR = 0.08
+"""[m] Deviation of a stroke's points, at severity 1 ..."""
+TREMOR_LENGTH = 1.5
+"""[m] ... that is alike over this length."""
+END = 0.2
+"""[m] Deviation of the ends along the stroke, at severity 1: overshoot or gap."""
+TURN, MOST_SHIFT = math.radians(4.0), 0.35
+"""[rad] Deviation of a stroke's angle, at severity 1, unless that shifts its ends by more than this [m]."""
+FLAT = 0.02
+"""[m] Points that are less off the line between others are dropped."""
+
+
+def shaky(line: shapely.LineString, severity: float, rng: np.random.Generator) -> shapely.LineString:
+    """Draw a stroke [m] by hand."""
+    points = shapely.get_coordinates(shapely.segmentize(line, STEP))
+    noise = rng.standard_normal((len(points), 2))
+    start, end, turn = rng.standard_normal(3).tolist()
+    width = TREMOR_LENGTH / STEP
+    tremor = gaussian_filter1d(noise, width, axis=0, mode="nearest") * math.sqrt(
+        2.0 * width * math.sqrt(math.pi)
+    )
+    points = points + severity * TREMOR * tremor
+    points[0] += severity * END * start * unit(points[0] - points[1])
+    points[-1] += severity * END * end * unit(points[-1] - points[-2])
+    angle = severity * turn * min(TURN, MOST_SHIFT / max(line.length / 2.0, 1e-6))
+    middle = points.mean(axis=0)
+    rotation = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    return shapely.simplify(shapely.LineString((points - middle) @ rotation.T + middle), FLAT)
+
+
+def unit(vector: Array) -> Array:
+    """Return a direction; of nothing, nothing."""
+    return np.asarray(vector / max(float(np.hypot(*vector)), 1e-9))

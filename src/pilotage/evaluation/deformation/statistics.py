@@ -1,0 +1,82 @@
+"""How far a drawing is from the truth, in the numbers that tell people's drawings from imitations."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from pilotage.evaluation.deformation.plan import Plan
+from pilotage.evaluation.rooms import Rooms
+from pilotage.geometry import Array
+
+SPAN = 2.0
+"""[m] Over which local scale and stretch are measured."""
+STEP = 0.5
+"""[m] of the way that is tested for drawn walls."""
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """Scales are relative to the median one; shares are of the robot's way."""
+
+    scale_p10: float
+    scale_p90: float
+    stretch_median: float  # ratio of the singular values of the local map
+    stretch_p90: float
+    similarity_miss: float  # [m] of control points from the best similarity, root mean square
+    crossing: float  # share of steps that cross a drawn stroke
+    undrawn: float  # share of the way in rooms that are not drawn
+    rooms_missing: float  # share of rooms
+
+
+def statistics_of(plan: Plan, way: Array, rooms: Rooms) -> Statistics:
+    """Measure a drawing of these rooms along a way (n, 2) [m] through the building."""
+    way = thinned(way)
+    names = rooms.names_at(way)
+    drawn = np.array([name in plan.rooms.names for name in names])
+    maps = local_maps(plan, way[drawn])
+    values = np.linalg.svd(maps, compute_uv=False)
+    values = values[values[:, 1] > 0.0]
+    scales, stretches = np.sqrt(values.prod(axis=1)), values[:, 0] / values[:, 1]
+    relative = scales / np.median(scales)
+    on_sheet = plan.warp.sketch_from_world(way)
+    steps = shapely.linestrings(np.stack([on_sheet[:-1], on_sheet[1:]], axis=1))
+    shapely.prepare(plan.strokes)
+    crossing = shapely.intersects(plan.strokes, steps)[drawn[:-1] & drawn[1:]]
+    return Statistics(
+        float(np.quantile(relative, 0.1)),
+        float(np.quantile(relative, 0.9)),
+        float(np.median(stretches)),
+        float(np.quantile(stretches, 0.9)),
+        similarity_miss(way[drawn], on_sheet[drawn]),
+        float(crossing.mean()),
+        float(1.0 - drawn.mean()),
+        1.0 - sum(name in plan.rooms.names for name in rooms.names) / len(rooms.names),
+    )
+
+
+def thinned(way: Array) -> Array:
+    """Keep points of a way (n, 2) that are a step apart."""
+    kept = [0]
+    for index in range(1, len(way)):
+        if np.hypot(*(way[index] - way[kept[-1]])) >= STEP:
+            kept.append(index)
+    return way[kept]
+
+
+def local_maps(plan: Plan, points: Array) -> Array:
+    """Return the linear map around each point (n, 2) [m], over the span, (n, 2, 2)."""
+    half = SPAN / 2.0 * np.eye(2)
+    sides = [
+        (plan.warp.sketch_from_world(points + one) - plan.warp.sketch_from_world(points - one)) / SPAN
+        for one in half
+    ]
+    return np.stack(sides, axis=-1)
+
+
+def similarity_miss(in_world: Array, in_sketch: Array) -> float:
+    """Return how far points (n, 2) [m] are from where the best similarity has them (Umeyama 1991)."""
+    z, w = (points @ np.array([1.0, 1.0j]) for points in (in_world, in_sketch))
+    z, w = z - z.mean(), w - w.mean()
+    factor = np.vdot(w, z) / np.vdot(w, w)
+    return float(np.sqrt(np.mean(np.abs(factor * w - z) ** 2)))

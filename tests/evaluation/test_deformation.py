@@ -1,0 +1,86 @@
+import numpy as np
+import pytest
+import shapely
+
+from pilotage.evaluation.deformation import deform, read_plan, statistics_of
+from pilotage.evaluation.deformation.doors import find_openings
+from pilotage.evaluation.deformation.elastic import bend, least_areas, linear_of, node_grid
+from pilotage.evaluation.deformation.omissions import change
+from pilotage.evaluation.deformation.statistics import similarity_miss
+from pilotage.evaluation.rooms import read_world_rooms
+from pilotage.worlds import OFFICE
+
+PLAN = read_plan(OFFICE.careful)
+
+
+@pytest.mark.parametrize(("person", "severity"), [(0, 0.3), (1, 0.7), (2, 1.0), (3, 1.25)])
+def test_what_is_the_same_place_stays_in_its_room(person, severity):
+    drawn = deform(PLAN, severity, person)
+    known = [name in drawn.rooms.names for name in PLAN.rooms.names_at(PLAN.warp.in_sketch)]
+    before = np.array(PLAN.rooms.names_at(PLAN.warp.in_sketch))[known]
+    after = np.array(drawn.rooms.names_at(drawn.warp.in_sketch))[known]
+
+    assert np.mean(before == after) > 0.97  # on a border either room is right
+
+
+@pytest.mark.parametrize("person", range(3))
+def test_at_severity_zero_the_plan_is_only_laid_down(person):
+    drawn = deform(PLAN, 0.0, person)
+
+    assert similarity_miss(PLAN.warp.in_sketch, drawn.warp.in_sketch) < 1e-6
+    assert PLAN.rooms.names == drawn.rooms.names
+
+
+def test_equal_persons_draw_equally_and_others_do_not():
+    first, again, other = (deform(PLAN, 1.0, person) for person in (3, 3, 4))
+
+    assert shapely.equals_exact(first.strokes, again.strokes)
+    np.testing.assert_array_equal(first.warp.in_sketch, again.warp.in_sketch)
+    assert not np.array_equal(first.warp.in_sketch, other.warp.in_sketch)
+
+
+def test_severity_makes_a_drawing_worse():
+    rooms = read_world_rooms(OFFICE.folder / "rooms.geojson")
+    way = PLAN.warp.in_world
+    stretches = [
+        np.mean(
+            [statistics_of(deform(PLAN, severity, person), way, rooms).stretch_median for person in range(3)]
+        )
+        for severity in (0.0, 0.5, 1.0)
+    ]
+
+    assert stretches == sorted(stretches)
+    assert stretches[2] > 1.4
+
+
+def test_equal_wishes_bend_the_sheet_evenly():
+    corner, nodes = node_grid((0.0, 0.0, 12.0, 9.0))
+    wish = np.array([0.3, 0.2, -0.1, 0.4])
+
+    sheet = bend(corner, np.broadcast_to(wish, (*nodes.shape[:2], 4)))
+
+    points = np.random.default_rng(0).uniform(0.0, 9.0, (20, 2))
+    expected = (points - corner) @ linear_of(wish).T + corner
+    np.testing.assert_allclose(sheet.carry(points), expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_wish_folds_the_sheet(seed):
+    corner, nodes = node_grid((0.0, 0.0, 15.0, 10.0))
+    wishes = np.random.default_rng(seed).normal(0.0, 1.0, (*nodes.shape[:2], 4))
+
+    assert least_areas(bend(corner, wishes).nodes).min() > 0.0
+
+
+def test_openings_are_found_and_all_rooms_stay_joined():
+    openings = find_openings(PLAN.rooms, PLAN.strokes)
+    changed = change(PLAN, 1.0, np.random.default_rng(1)).plan
+
+    assert len(openings) >= len(PLAN.rooms.names) - 1
+    assert set(changed.rooms.names) <= set(PLAN.rooms.names)
+
+
+@pytest.mark.parametrize("severity", [-0.1, float("nan"), float("inf")])
+def test_a_severity_that_means_nothing_is_refused(severity):
+    with pytest.raises(ValueError, match="severity must be"):
+        deform(PLAN, severity, 0)
