@@ -5,7 +5,7 @@
 
 The true plan of a building, as `draftsman` drew it, is deformed: proportions room by room, doors, what is
 left out, and the hand itself (`pilotage.evaluation.deformation`). At severity 1 it is as far from the truth
-as drawings by people are. Each drawing of each person gets the episodes of `localization`: 40 m of a real log,
+as drawings by people are. Each drawing of each person gets the episodes of `localization`: 40 m of a log,
 nothing told. `--statistics` only measures the drawings at severity 1 beside `freehand`, a drawing by a
 person, by the same code; `--figure` writes a picture of one building at six severities.
 """
