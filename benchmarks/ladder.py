@@ -30,7 +30,7 @@ from pilotage.io.tum import read_trajectory
 SEVERITIES = (0.5, 1.0)
 SHOWN = (0.0, 0.25, 0.5, 0.75, 1.0, 1.25)
 SHOWN_BUILDING = "csail"
-PEOPLE, EPISODES = 2, 3
+PEOPLE, EPISODES = 1, 3
 KNOWN_OF_PEOPLE = {
     "scale_p10": "0.64",
     "scale_p90": "1.55",
