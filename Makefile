@@ -3,10 +3,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo check test fix reference bench clean
+.PHONY: demo table check test fix reference bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/pilotage demo
+
+table: $(VENV)/ready-web  # the drawing table, in the browser
+	$(BIN)/pilotage table
 
 check: $(VENV)/ready-dev
 	$(BIN)/ruff format --check .
@@ -42,9 +45,13 @@ $(VENV)/ready: pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --editable .
 	touch $@
 
+$(VENV)/ready-web: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --editable '.[web]'
+	touch $(VENV)/ready $@
+
 $(VENV)/ready-dev: pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --editable '.[dev,benchmarks]'
-	touch $(VENV)/ready $@
+	touch $(VENV)/ready $(VENV)/ready-web $@
 
 clean:
 	rm -rf $(VENV)

@@ -39,9 +39,10 @@ NAMES = (
     "shape",
     "simulation",
     "soak",
+    "table",
     "worlds_from_logs",
 )
-WITHOUT_DATA = ("shape", "simulation", "soak")
+WITHOUT_DATA = ("shape", "simulation", "soak", "table")
 TOOLS = ("readme", "fetch")
 BESIDE = {
     "json",

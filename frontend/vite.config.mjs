@@ -19,7 +19,7 @@ const withoutUnused = {
   resolveId: (id, importer) => (UNUSED.test(id) && importer?.includes("excalidraw") ? "\0unused" : null),
   load: (id) => (id === "\0unused" ? "export default {}; export const WorkerUrl = undefined;" : null),
   transform: (code, id) =>
-    id.includes("excalidraw/dist/prod") ? code.replaceAll("https://esm.sh/", "/assets/") : null,
+    id.includes("excalidraw/dist/prod") ? code.replaceAll("https://esm.sh/", "${location.origin}/assets/") : null,
 };
 
 const withFontsAndHash = {

@@ -4,8 +4,10 @@ from pathlib import Path
 
 import pytest
 
-LOGS = Path(__file__).resolve().parents[1] / ".." / "shared" / "data" / "logs"
+DATA = Path(__file__).resolve().parents[1] / ".." / "shared" / "data"
+LOGS = DATA / "logs"
 needs_logs = pytest.mark.skipif(not LOGS.exists(), reason="the shared laser logs are not here")
+needs_bags = pytest.mark.skipif(not (DATA / "bags").exists(), reason="the shared bags are not here")
 PLANS = LOGS.parent / "plans"
 VECTOR = LOGS.parent / "vector"
 needs_plans = pytest.mark.skipif(not PLANS.exists(), reason="the shared floor plans are not here")

@@ -110,9 +110,9 @@ def test_settings_of_a_stage_are_changed_and_no_others():
     ("content", "error", "message"),
     [
         ("a = [", FileError, "must be TOML"),
-        ("a = " + "9" * 5000, SettingsError, "holds a value that cannot be read"),
+        ("a = " + "9" * 5000, FileError, "holds a value that cannot be read"),
         ("[localizer]\nstep = 1" + "0" * 400, SettingsError, "setting localizer.step must be a number of at"),
-        ("a = " + "[" * 5000, SettingsError, "must not be nested so deeply"),
+        ("a = " + "[" * 5000, FileError, "must not be nested so deeply"),
         ("[localizer.sensor]\nsigma_hit = nan", SettingsError, "localizer.sensor.sigma_hit must be finite"),
         ("nonsense = 1", SettingsError, "unknown setting nonsense"),
         (

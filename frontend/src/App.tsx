@@ -121,6 +121,7 @@ export function App() {
     openEmpty: () => guarded(async () => {
       show({ elements: [], files: {} });
       save.adopt({ name: "", base: "drawing", tag: null }, whole());
+      editor?.setActiveTool({ type: "freedraw" });
     }),
   };
 

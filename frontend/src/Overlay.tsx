@@ -45,7 +45,7 @@ export function Overlay({ told, view, hovered, goal, ends, preview, mend }: Prop
           ))}
           {ends.map((p, k) => <circle key={k} cx={p[0]} cy={p[1]} r={6 * pixel} fill="white" stroke={COLOR.trail} strokeWidth={2.5 * pixel} />)}
           {preview.length > 1 && <polyline points={preview.join(" ")} fill="none" stroke={COLOR.accent} strokeWidth={5 * pixel} strokeLinecap="round" />}
-          {goal && <path d={starPath(goal, 13 * pixel)} fill={COLOR.goal} stroke="white" strokeWidth={1.2 * pixel} />}
+          {goal && <path d={starPath(goal, 10)} fill={COLOR.goal} />}
         </g>
       </svg>
       {told?.findings.map((one, k) => {

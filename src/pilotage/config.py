@@ -6,7 +6,6 @@ import io
 import json
 import math
 import tokenize
-import tomllib
 import types
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
@@ -14,8 +13,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from pilotage.errors import FileError, SettingsError
-from pilotage.io.files import check_regular, read_bytes
+from pilotage.errors import SettingsError
+from pilotage.io.toml_files import read_toml
 from pilotage.localization import LocalizerSettings
 from pilotage.navigation import NavigatorSettings
 from pilotage.simulation import SimulatorSettings
@@ -45,21 +44,11 @@ def read_settings(path: Path | str) -> Settings:
 
     Raises FileError if it cannot be read, SettingsError if it holds an unknown name or an invalid value.
     """
-    check_regular(Path(path))
+    tree = read_toml(path, "a settings file")
     try:
-        content = read_bytes(path).decode()
-    except UnicodeDecodeError as error:
-        raise FileError("a settings file must be UTF-8 text", path) from error
-    try:
-        return settings_from(tomllib.loads(content))
-    except tomllib.TOMLDecodeError as error:
-        raise FileError(f"a settings file must be TOML ({error})", path) from error
+        return settings_from(tree)
     except SettingsError as error:
         raise SettingsError(f"{error}: {path}") from error
-    except RecursionError as error:
-        raise SettingsError(f"a settings file must not be nested so deeply: {path}") from error
-    except ValueError as error:  # a number of thousands of digits
-        raise SettingsError(f"a settings file holds a value that cannot be read ({error}): {path}") from error
 
 
 def settings_text(settings: object, name: str = "") -> str:

@@ -104,11 +104,11 @@ def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
     [
         (("perceive", "nowhere.log"), "there is no such file"),
         (("simplify", "nowhere.svg"), "there is no such file"),
-        (("perceive", worlds.OFFICE.quick), "no CARMEN log"),
+        (("perceive", worlds.OFFICE.quick), "no laser log"),
         (("simplify", worlds.LOG), "well-formed XML"),
         (("perceive", worlds.LOG, "--scan", "9999"), "scans 0 to 291"),
         (("localize", worlds.LOG, worlds.OFFICE.quick), "well-formed XML"),
-        (("localize", worlds.OFFICE.quick, worlds.OFFICE.quick), "no CARMEN log"),
+        (("localize", worlds.OFFICE.quick, worlds.OFFICE.quick), "no laser log"),
         (("localize", worlds.OFFICE.quick, worlds.LOG, "--from", "500"), "none of them from 500"),
         (
             ("localize", worlds.OFFICE.quick, worlds.LOG, "--from", "5", "--to", "5"),

@@ -50,7 +50,7 @@ def test_a_table_is_read(table):
         ("page = 1.5", "page must be a number or a name"),
         ('shading = "dim"', "shading must be one of"),
         ("[", "must be TOML"),
-        (b"\xff\xfe", "must be TOML"),
+        (b"\xff\xfe", "must be UTF-8"),
     ],
 )
 def test_a_table_that_will_not_do_is_refused_with_the_rule(table, text, told):

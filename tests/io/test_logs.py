@@ -25,8 +25,8 @@ def test_packed_or_plain_is_told_by_content_and_not_by_name(tmp_path, pack):
     [
         (b"", "empty"),
         (b" \n\n", "empty"),
-        (b"x,y\n1,2\n", "no CARMEN log"),
-        (bytes(range(256)) * 20, "no CARMEN log"),
+        (b"x,y\n1,2\n", "no laser log"),
+        (bytes(range(256)) * 20, "no laser log"),
         (b"ODOM 1 2 3 0 0 0 1.0 host 1.0\n", "no scan"),
         (b"FLASER 3 1.0 2.0\n", "line 1"),
         (gzip.compress(LINE.encode())[:-12], "damaged"),

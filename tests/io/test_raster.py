@@ -160,7 +160,7 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
     noise = tmp_path / "noise.png"
     noise.write_bytes(b"no picture")
 
-    with pytest.raises(FileError, match="at least one stroke"):
+    with pytest.raises(FileError, match="stroke, found none"):
         open_map(blank)
     with pytest.raises(FileError, match="cannot be read"):
         open_map(noise)
@@ -192,8 +192,10 @@ def test_a_file_that_is_not_a_picture_is_never_handed_to_another_program(tmp_pat
     path = tmp_path / "page.png"
     path.write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n%%EOF\n")
 
-    with pytest.raises(FileError, match="a picture cannot be read"):
+    with pytest.raises(FileError, match="a PostScript drawing cannot be read"):
         open_map(path)
+    with pytest.raises(FileError, match="a picture cannot be read"):
+        read_picture(path)
 
 
 def test_a_broken_chunk_of_a_png_is_refused(tmp_path):

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pilotage.geometry import Polyline
-from pilotage.maps import DecompositionSettings, Label, SchematicMap, decompose
+from pilotage.maps import DecompositionSettings, FileAxes, Label, SchematicMap, decompose
 from pilotage.maps.cells.identity import identify, place_name
 
 BOX = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
@@ -39,7 +39,7 @@ def test_ids_stay_when_a_stroke_is_added_elsewhere(stroke):
 @given(st.lists(st.sampled_from(["WC", "Hall", "?", ""]), min_size=1, max_size=6))
 def test_every_cell_has_an_id_of_its_own(labels):
     boxes = [shapely.box(0, 0, 10, 10)] * len(labels)
-    ids = identify(boxes, [[label] for label in labels], 100.0, y_down=False)
+    ids = identify(boxes, [[label] for label in labels], 100.0, FileAxes())
 
     assert len(set(ids)) == len(labels)
     assert all(ids)
@@ -49,7 +49,7 @@ def test_every_cell_has_an_id_of_its_own(labels):
 def test_a_place_says_within_two_percent_where_a_cell_is(magnitude, x, y):
     size = 10.0**magnitude
     box = shapely.box(x * size, y * size, (x + 1) * size, (y + 1) * size)
-    words = place_name(box, 50.0 * size, y_down=False)
+    words = place_name(box, 50.0 * size, FileAxes())
     told = np.array([float(word) for word in words[1:].split("y")])
 
     assert math.dist(told, (box.centroid.x, box.centroid.y)) <= 0.02 * 50.0 * size
@@ -58,6 +58,6 @@ def test_a_place_says_within_two_percent_where_a_cell_is(magnitude, x, y):
 def test_a_ring_is_placed_where_it_is_and_not_in_its_hole():
     ring = shapely.Polygon(shapely.box(0, 0, 100, 100).exterior, [shapely.box(10, 10, 90, 90).exterior])
 
-    assert place_name(ring, 140.0, y_down=False) != place_name(
-        shapely.box(10, 10, 90, 90), 140.0, y_down=False
+    assert place_name(ring, 140.0, FileAxes()) != place_name(
+        shapely.box(10, 10, 90, 90), 140.0, FileAxes()
     )

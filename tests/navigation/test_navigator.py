@@ -325,3 +325,18 @@ def test_times_are_not_negative(name):
 def test_a_probability_is_a_share(name):
     with pytest.raises(ValueError, match=rf"{name} must be in \[0, 1\], got 3.0"):
         NavigatorSettings(**{name: 3.0})
+
+
+def test_a_robot_that_has_arrived_drives_to_another_goal_if_it_is_told_to():
+    navigator = Navigator(knowing(), (3.5, 2.5), NavigatorSettings())
+    simulator = Simulator(WORLD, START, np.random.default_rng(0), SEEING)
+    assert Outcome.REACHED is list(drive(navigator, simulator))[-1].step.outcome
+
+    with pytest.raises(RouteError):
+        navigator.set_goal("attic")
+    navigator.set_goal("kitchen")
+    instants = list(drive(navigator, simulator))
+
+    assert Outcome.REACHED is instants[-1].step.outcome
+    assert KITCHEN == instants[-1].step.estimate.cell_id
+    assert 5.0 < instants[-1].scene.world_from_base.x

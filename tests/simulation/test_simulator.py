@@ -1,6 +1,7 @@
 """A robot in a world, moved by commands."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from pilotage.simulation import (
     BodySettings,
     LaserSettings,
     OdometrySettings,
+    Person,
     Simulator,
     SimulatorSettings,
     StartError,
@@ -133,3 +135,44 @@ def test_a_start_in_a_wall_is_refused(x):
 def test_what_cannot_be_meant_is_refused(make):
     with pytest.raises(ValueError, match=r"must"):
         make()
+
+
+def test_a_carried_robot_stands_elsewhere_and_its_wheels_do_not_know():
+    simulator = simulator_at(0, 0, 0)
+    before = simulator.read()
+
+    simulator.carry(Pose2(3, 2, 1.0))
+
+    assert before.odometry == simulator.read().odometry
+    assert not np.array_equal(before.scan.ranges, simulator.read().scan.ranges)
+    with pytest.raises(StartError):
+        simulator.carry(Pose2(5, 0, 0))
+    assert [3.0, 2.0] == simulator.world_from_base.position.tolist()
+
+
+def test_a_world_that_is_rebuilt_stops_the_robot_where_it_is_new():
+    simulator = simulator_at(0, 0, 0)
+    wall = np.array([[1.0, -1.0, 1.0, 1.0]])
+
+    simulator.rebuild(replace(ROOM, segments=np.vstack([ROOM.segments, wall])))
+    for _ in range(50):
+        simulator.step(Twist(0.5, 0.0))
+
+    assert 1.0 - simulator.settings.body.radius == pytest.approx(simulator.world_from_base.x, abs=1e-3)
+    assert 1 == simulator.collisions
+    with pytest.raises(StartError):
+        simulator.rebuild(replace(ROOM, segments=wall - (0.3, 0.0, 0.3, 0.0)))
+
+
+def test_who_joins_a_world_does_not_disturb_who_walks_there():
+    path = Polyline.through([(-1, 3), (4, 3)])
+    one = replace(ROOM, people=(Person(path),))
+    undisturbed, joined = (simulator_at(0, 0, 0, world=one) for _ in range(2))
+
+    joined.rebuild(replace(one, people=(Person(path), Person(Polyline.through([(-1, -2), (4, -2)])))))
+    for _ in range(30):
+        undisturbed.step(REST)
+        joined.step(REST)
+
+    assert 2 == len(joined.people)
+    assert undisturbed.people[0].tolist() == joined.people[0].tolist()

@@ -11,6 +11,7 @@ from pilotage.cli.demo import demo
 from pilotage.cli.localize import localize
 from pilotage.cli.navigate import navigate
 from pilotage.cli.perceive import perceive
+from pilotage.cli.record import record
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
 from pilotage.cli.table import table
@@ -50,6 +51,7 @@ app.command()(demo)
 app.command()(localize)
 app.command()(navigate)
 app.command()(perceive)
+app.command()(record)
 app.command()(settings)
 app.command()(simplify)
 app.command()(table)

@@ -8,13 +8,23 @@ import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.places import parse_pose
-from pilotage.cli.run import draw, estimates_sink, open_localizer, read_stretch, run, summary
+from pilotage.cli.run import (
+    LOG_HELP,
+    OdometryTopic,
+    ScanTopic,
+    draw,
+    estimates_sink,
+    open_localizer,
+    read_stretch,
+    run,
+    summary,
+)
 from pilotage.cli.terminal import check_outputs, keeping, say
 
 
 def localize(
     drawing: Map,
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help=LOG_HELP)],
     *,
     output: Annotated[
         Path | None,
@@ -43,6 +53,8 @@ def localize(
     page: Page = None,
     shading: Shade = "recognized",
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    scan_topic: ScanTopic = None,
+    odometry_topic: OdometryTopic = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """Tell for every scan of a log where on the drawing the robot was.
@@ -63,7 +75,7 @@ def localize(
         raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
-    readings = read_stretch(log, first, last)
+    readings = read_stretch(log, first, last, scan_topic, odometry_topic)
     localizer = open_localizer(sketch, settings, seed, known, scale)
     tell_worst(drawing, findings_of(sketch, settings))
     with estimates_sink(output, sketch) as write:

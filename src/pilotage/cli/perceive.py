@@ -5,18 +5,20 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.run import LOG_HELP, ScanTopic
 from pilotage.cli.terminal import check_outputs, say
 from pilotage.errors import FileError
 
 
 def perceive(
-    log: Annotated[Path, typer.Argument(metavar="LOG", help="A laser log: CARMEN text, gzip or plain.")],
+    log: Annotated[Path, typer.Argument(metavar="LOG", help=LOG_HELP)],
     *,
     scan: Annotated[int, typer.Option(min=0, help="Which scan of the log, counted from 0.")] = 0,
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw the scan and its shapes (.png, .svg, .pdf).")
     ] = None,
     settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    scan_topic: ScanTopic = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
 ) -> None:
     """See one scan as partial shapes (Wolter 2001, sections 2.1 and 2.2; figure 2).
@@ -37,7 +39,7 @@ def perceive(
         from pilotage.config import read_settings
 
         chosen = read_settings(settings).localizer.scan_matching.perception
-    readings = open_log(log)
+    readings = open_log(log, scan_topic=scan_topic)
     if readings.complaint:
         say(readings.complaint)
     if scan >= len(readings):

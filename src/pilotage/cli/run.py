@@ -4,7 +4,9 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 from pilotage.cli.exits import signals_held
 from pilotage.cli.terminal import busy, say, track
@@ -17,11 +19,31 @@ if TYPE_CHECKING:
     from pilotage.perception import Reading
 
 
-def read_stretch(log: Path, first: int, last: int | None) -> "Sequence[Reading]":
-    """Read the scans first .. last - 1 of a log; complain about lines that were left out."""
+ScanTopic = Annotated[
+    str | None,
+    typer.Option("--scan-topic", help="Topic of the scans in a bag.", show_default="found by type"),
+]
+OdometryTopic = Annotated[
+    str | None,
+    typer.Option(
+        "--odom-topic", help="Topic of the odometry in a bag.", show_default="found by type, or /tf"
+    ),
+]
+LOG_HELP = "A laser log: a bag of ROS 1 or ROS 2 (file or folder), CARMEN or BreezySLAM text."
+
+
+def read_stretch(
+    log: Path,
+    first: int,
+    last: int | None,
+    scan_topic: str | None = None,
+    odometry_topic: str | None = None,
+) -> "Sequence[Reading]":
+    """Take the scans first .. last - 1 of a log; complain about what was left out."""
     from pilotage.io import open_log
 
-    content = open_log(log)
+    with busy("Reading the log"):
+        content = open_log(log, scan_topic=scan_topic, odometry_topic=odometry_topic)
     if content.complaint:
         say(content.complaint)
     readings = content.readings[first:last]

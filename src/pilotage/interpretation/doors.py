@@ -183,7 +183,8 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
             if place in door.marks:
                 track = shapely.LineString(door.arc.vertices)
                 narrow, wide = (
-                    shapely.buffer(track, share * door.width, cap_style="square") for share in (SLACK / 2.0, TWINS)
+                    shapely.buffer(track, share * door.width, cap_style="square")
+                    for share in (SLACK / 2.0, TWINS)
                 )
                 line, area = shapely.difference(line, narrow), shapely.difference(area, wide)
             line = without_leaf(line, door)

@@ -50,7 +50,9 @@ def find_glyphs(marks: Sequence[Mark], diagonal: float) -> set[int]:
     first, second = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=reach)
     alike = np.maximum(sizes[first], sizes[second]) <= LIKE * np.minimum(sizes[first], sizes[second])
     beside = (first != second) & small[first] & small[second] & alike
-    words.add_edges_from_no_data([(int(a), int(b)) for a, b in zip(first[beside], second[beside], strict=True)])
+    words.add_edges_from_no_data(
+        [(int(a), int(b)) for a, b in zip(first[beside], second[beside], strict=True)]
+    )
     letters = np.zeros(len(bounds), dtype=bool)
     for group in rustworkx.connected_components(words):
         members = sorted(group)

@@ -67,7 +67,9 @@ def find_walls(
         walls = shapely.difference(filled_between(lines, solid, thickness), openings)
         walls = touching(walls, solid)
         if are_walls(walls, lines, gap):
-            return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness)
+            return Walls(
+                walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness
+            )
     faced = greatest_thickness(lines, width, diagonal)
     if faced is not None:
         walls = shapely.difference(filled_between(lines, solid, faced), openings)

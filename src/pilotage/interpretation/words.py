@@ -53,7 +53,9 @@ def is_measure(words: str) -> bool:
 
 def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
     """Join the lines of each name, the upper first; words without a letter, and measures, are left out."""
-    kept = [(n, text) for n, text in texts if not is_measure(text.text) and not MARK_OF_NOTHING.match(text.text)]
+    kept = [
+        (n, text) for n, text in texts if not is_measure(text.text) and not MARK_OF_NOTHING.match(text.text)
+    ]
     following: dict[int, int] = {}
     for place, (_, upper) in enumerate(kept):
         below = [
@@ -73,7 +75,9 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
             chain.append(following[chain[-1]])
         lines = [kept[place][1] for place in chain]
         x, y = np.mean([line.position for line in lines], axis=0).tolist()
-        names.append(Name(" ".join(line.text for line in lines), (x, y), tuple(kept[place][0] for place in chain)))
+        names.append(
+            Name(" ".join(line.text for line in lines), (x, y), tuple(kept[place][0] for place in chain))
+        )
     return names
 
 

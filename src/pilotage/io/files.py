@@ -21,8 +21,8 @@ except ImportError:  # not a POSIX system: what a killed run left stays until so
     fcntl = None  # type: ignore[assignment]
 
 GZIP_MAGIC = b"\x1f\x8b"
-LARGEST = 1 << 30
-"""The largest file that is read [bytes], after unpacking: an hour of a fast laser has a tenth of it."""
+LARGEST = 1 << 28
+"""The largest file that is read [bytes], after unpacking: two hours of a fast laser."""
 TEMPORARY = re.compile(r"\..+\.[a-z0-9_]{8}\.unfinished(\.[^.]*)?")
 """Names of files that are being written."""
 LONGEST_NAME = 50
@@ -31,24 +31,24 @@ LEAST_AGE = 60.0
 """A temporary file younger than this [s] is never deleted: its writer may not have locked it yet."""
 
 
-def read_bytes(path: Path | str) -> bytes:
+def read_bytes(path: Path | str, largest: int = LARGEST) -> bytes:
     """Read a whole file or pipe, unpacked if it is packed.
 
-    Raises FileError if it is missing, is neither a file nor a pipe, or is larger than `LARGEST`.
+    Raises FileError if it is missing, is neither a file nor a pipe, or is larger than so many bytes.
     """
     with reading(path):
         mode = Path(path).stat().st_mode
         if stat.S_ISCHR(mode) or stat.S_ISBLK(mode):
             raise FileError("a file is expected, found a device", path)
         with Path(path).open("rb") as file:
-            content = file.read(LARGEST + 1)
+            content = file.read(largest + 1)
     if content.startswith(GZIP_MAGIC):
         try:
-            content = gzip.GzipFile(fileobj=io.BytesIO(content)).read(LARGEST + 1)
+            content = gzip.GzipFile(fileobj=io.BytesIO(content)).read(largest + 1)
         except (OSError, EOFError, zlib.error) as error:
             raise FileError("the packed file is damaged", path) from error
-    if len(content) > LARGEST:
-        raise FileError(f"the file is larger than {LARGEST >> 20} MB", path)
+    if len(content) > largest:
+        raise FileError(f"the file is larger than {largest / 1e6:.0f} MB", path)
     return content
 
 

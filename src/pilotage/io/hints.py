@@ -14,7 +14,6 @@ Beside `office.dxf` it is called `office.dxf.toml`:
 """
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
@@ -22,7 +21,7 @@ from pathlib import Path
 
 from pilotage.errors import FileError
 from pilotage.interpretation import Role
-from pilotage.io.files import read_bytes
+from pilotage.io.toml_files import read_toml
 
 SUFFIX = ".toml"
 """Added to the name of a drawing, it is the name of its table."""
@@ -78,10 +77,7 @@ def read_hints(path: Path) -> DrawingHints:
 
     Raises FileError that names the key, the rule and the value.
     """
-    try:
-        tree = tomllib.loads(read_bytes(path).decode())
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
-        raise FileError(f"a table of hints must be TOML ({error})", path) from error
+    tree = read_toml(path, "a table of hints")
     for key in tree:
         if key not in KEYS:
             raise FileError(f"a table of hints holds {', '.join(KEYS)}, not {key!r}", path)

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from pilotage.errors import FileError
-from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, interpret
+from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
 from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
-from pilotage.io.raster import SUFFIXES, PictureKind, read_map_server, read_raster
-from pilotage.io.svg import read_svg_sheet
+from pilotage.io.kinds import Kind, recognize
+from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet_or_plan, sheet_or_plan
+from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
 
 KINDS = {shading: PictureKind[shading.name] for shading in Shading}
@@ -34,11 +35,12 @@ def open_map(
     page: str | int | None = None,
     shading: str = "recognized",
 ) -> SchematicMap:
-    """Read a drawing: SVG (also gzipped), a picture (PNG, PGM, JPEG, ...) or a ROS map_server YAML file.
+    """Read a drawing: SVG, PDF, DXF, a picture, Excalidraw, draw.io, an indoor map or a map_server file.
 
     The rest is for where guessing fails, and wins over the table beside the file (`office.svg.toml`):
     `layers` tells what the marks of a layer, class, id or block are, as in `{"A-FURN": "ignore"}`; `labels`
-    names rooms at points in the file's own axes; `page` is one of several; `shading` is of a picture.
+    names rooms at points in the file's own axes; `page` is the number or name of one of several pages or the
+    name of a level, which `plan.pdf#2` names, too; `shading` is of a picture.
 
     Raises FileError if the file is missing, of another kind, or shows no stroke, ValueError if a hint is
     invalid.
@@ -55,7 +57,7 @@ def open_map(
 def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
     """Read a drawing with what a person says about it, here and in the table beside the file."""
     hints, remarks = hints or DrawingHints(), []
-    table = table_beside(file)
+    table = table_beside(split_page(file)[0])
     if table.is_file():
         hints = hints.over(read_hints(table))
         remarks.append(f"hints are taken from {table.name}")
@@ -74,15 +76,38 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
 
 def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation | None]:
     """Read a drawing by the reader of its kind, and understand its marks if it has any."""
-    suffix = file.suffix.lower()
-    if suffix in SUFFIXES:
-        return read_raster(file, KINDS[hints.shading]), None
+    file, page = split_page(file, hints.page)
+    kind = recognize(file)
+    if kind is Kind.PICTURE:
+        seen = read_sheet_or_plan(file, KINDS[hints.shading])
+        return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
+    if kind is Kind.PDF:
+        return read_pdf_page(file, page, hints)
     if hints.shading is not Shading.RECOGNIZED:
         raise FileError(f"only pictures have a shading, {hints.shading.value} is asked for", file)
-    if suffix in (".yaml", ".yml"):
+    if kind is Kind.MAP_SERVER:
         return read_map_server(file), None
+    return understood(read_sheet(file, page), file, hints)
+
+
+def read_pdf_page(
+    file: Path, page: str | None, hints: DrawingHints
+) -> tuple[SchematicMap, Interpretation | None]:
+    """Read a page of a PDF file; one that is a picture is read as such, in pixels."""
+    from pilotage.io.pdf import PicturePageError, page_picture
+
     try:
-        interpretation = interpret(read_svg_sheet(file), Hints(hints.layers))
+        return understood(read_sheet(file, page), file, hints)
+    except PicturePageError:
+        colors = np.asarray(page_picture(file, page) / 255.0, dtype=np.float32)
+        seen = sheet_or_plan(Picture(colors), KINDS[hints.shading], file)
+    return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
+
+
+def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation]:
+    """Give the marks of a sheet a meaning."""
+    try:
+        interpretation = interpret(sheet, Hints(hints.layers))
     except NoWallsError as error:
         raise FileError(str(error), file) from error
     return interpretation.sketch, interpretation

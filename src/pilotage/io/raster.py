@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from pilotage.errors import FileError
 from pilotage.geometry import Polyline
-from pilotage.interpretation import NoWallsError, interpret
+from pilotage.interpretation import NoWallsError, Sheet, interpret
 from pilotage.io.files import check_regular
 from pilotage.maps import SchematicMap
 
@@ -91,16 +91,28 @@ def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> Schem
 
     Raises FileError if it cannot be read or shows neither walls nor free space.
     """
+    seen = read_sheet_or_plan(path, kind)
+    if isinstance(seen, SchematicMap):
+        return seen
+    try:
+        return interpret(seen).sketch
+    except NoWallsError as error:
+        raise FileError("a line drawing must show at least one stroke, found none", path) from error
+
+
+def read_sheet_or_plan(path: Path, kind: PictureKind) -> Sheet | SchematicMap:
+    """Read the marks of a line drawing, or the free space of a filled plan."""
+    return sheet_or_plan(read_picture(path), kind, path)
+
+
+def sheet_or_plan(picture: Picture, kind: PictureKind, path: Path) -> Sheet | SchematicMap:
+    """Find the marks of a line drawing, or the free space of a filled plan, in a picture."""
     from pilotage.io.picture import sheet_of
 
-    picture = read_picture(path)
     if kind is PictureKind.RECOGNIZED:
         kind = recognize(picture)
     if kind is PictureKind.LINES:
-        try:
-            return interpret(sheet_of(picture.colors, source=str(path))).sketch
-        except NoWallsError as error:
-            raise FileError("a line drawing must show at least one stroke, found none", path) from error
+        return sheet_of(picture.colors, source=str(path))
     light = picture.shades >= LIGHT
     return from_free_space(
         light if kind is PictureKind.LIGHT_IS_FREE else picture.shades < 1.0 - LIGHT + DARK, path

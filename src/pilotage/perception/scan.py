@@ -86,6 +86,7 @@ class Odometry:
 
     stamp: float  # [s]
     odom_from_base: Pose2  # [m, rad]
+    is_known: bool = True  # False if the robot has no odometry: then the pose means nothing
 
     def __post_init__(self) -> None:
         """Reject a stamp that is not a number."""

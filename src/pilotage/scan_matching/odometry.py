@@ -33,6 +33,13 @@ UNKNOWN_POSITION_STD = 1.0
 UNKNOWN_HEADING_STD = math.radians(30.0)
 """[rad] Prior of an unknown motion; the search covers three times as much to either side."""
 
+NO_ODOMETRY_POSITION_STD = 0.05, 1.0
+"""[m, m/s^2] Prior of a robot without odometry, which is expected to go on as before: at once, and by its
+acceleration with the square of time."""
+
+NO_ODOMETRY_HEADING_STD = math.radians(3.0), math.radians(180.0)
+"""[rad, rad/s^2] The same for its heading."""
+
 MEDIAN_OF_NORMAL = 0.6745
 """The median of the absolute value of a standard normal variable."""
 
@@ -120,6 +127,20 @@ class MotionPrior(NamedTuple):
         """Expect the robot near its last pose: nothing is known about its motion."""
         return cls(
             Pose2.identity(), odom_from_last, UNKNOWN_POSITION_STD, UNKNOWN_HEADING_STD, is_known=False
+        )
+
+    @classmethod
+    def going_on(cls, motion: Pose2, odom_from_last: Pose2, seconds: float) -> "MotionPrior":
+        """Expect the robot to go on as before: it has no odometry."""
+        squared = max(seconds, 0.0) ** 2
+        stds = [
+            at_once + rate * squared for at_once, rate in (NO_ODOMETRY_POSITION_STD, NO_ODOMETRY_HEADING_STD)
+        ]
+        return cls(
+            motion,
+            odom_from_last @ motion,
+            min(stds[0], UNKNOWN_POSITION_STD),
+            min(stds[1], UNKNOWN_HEADING_STD),
         )
 
     @property

@@ -10,6 +10,9 @@ from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise, reported
 from pilotage.scan_matching.register import Method, Registration, register
 from pilotage.shape import PartialShape
 
+LONGEST_INERTIA = 1.0
+"""[s] A robot without odometry is expected to keep its speed for no longer."""
+
 MIN_LEARNING_INLIERS = 0.25
 """With a smaller share of inliers, registration cannot judge odometry."""
 
@@ -62,6 +65,7 @@ class ScanMatcher:
         self.refused_count = 0  # readings of odometry that were refused so far
         self._odometry: Odometry | None = None  # the last reading; None before the first
         self._traveled = 0.0  # [m]
+        self._speed = (0.0, 0.0, 0.0)  # [m/s, m/s, rad/s] at the last reading, in the base frame
         self._odom_from_keyframe = Pose2.identity()  # where the last scan was entered
 
     def update(self, scan: LaserScan, odometry: Odometry) -> ScanMotion:
@@ -73,7 +77,7 @@ class ScanMatcher:
         odom_from_base = registration.odom_from_base
         last_from_base = self.odom_from_base.inverse() @ odom_from_base if registration.fit else prior.motion
         traveled = self._traveled + math.hypot(last_from_base.x, last_from_base.y)
-        noise = self._updated_noise(prior, registration)
+        noise = self._updated_noise(prior, registration) if odometry.is_known else self.noise
         local_map, odom_from_keyframe = self.local_map, self._odom_from_keyframe
         if self._is_keyframe(odom_from_base):
             new = tuple(shapes[index].moved(odom_from_base) for index in registration.unmatched)
@@ -81,6 +85,7 @@ class ScanMatcher:
             odom_from_keyframe = odom_from_base
 
         self.local_map, self.odom_from_base, self.noise = local_map, odom_from_base, noise
+        self._speed = self._speed_of(last_from_base, odometry.stamp)
         self._odometry, self._traveled, self._odom_from_keyframe = odometry, traveled, odom_from_keyframe
         self.refused_count += not prior.is_known
         return ScanMotion(
@@ -91,10 +96,22 @@ class ScanMatcher:
         """Carry the last pose on by what odometry reports."""
         if self._odometry is None:
             return MotionPrior.of(Pose2.identity(), self.odom_from_base, self.noise)
+        if not (odometry.is_known and self._odometry.is_known):
+            seconds = odometry.stamp - self._odometry.stamp
+            ahead = seconds if 0.0 < seconds < LONGEST_INERTIA else 0.0
+            as_before = Pose2(*(ahead * speed for speed in self._speed))
+            return MotionPrior.going_on(as_before, self.odom_from_base, seconds)
         motion = reported_motion(self._odometry, odometry)
         if motion is None:
             return MotionPrior.unknown(self.odom_from_base)
         return MotionPrior.of(motion, self.odom_from_base, self.noise)
+
+    def _speed_of(self, motion: Pose2, stamp: float) -> tuple[float, float, float]:
+        """Return the speed in the base frame since the last reading; 0 if it tells nothing."""
+        seconds = 0.0 if self._odometry is None else stamp - self._odometry.stamp
+        if not 0.0 < seconds < LONGEST_INERTIA:
+            return 0.0, 0.0, 0.0
+        return motion.x / seconds, motion.y / seconds, motion.theta / seconds
 
     def _updated_noise(self, prior: MotionPrior, registration: Registration) -> OdometryNoise:
         """Learn from what registration found, if it can judge odometry."""

@@ -25,7 +25,11 @@ NARROWEST = 0.9
 """Width [m] to which the narrowest drawn passage is widened, with all the building."""
 MOST_WIDENING = 2.0
 """By no larger factor than this."""
-WIDEST_DOOR = 1.8
+DOOR = 1.0
+"""Width [m] of a usual door: narrow passages tell how large a building is meant to be,"""
+TRUST_IN_DOORS = math.log(1.6)
+"""up to this from what its size and its clearance say [log]: the robot guesses by those."""
+WIDEST_DOOR = 2.5
 """A gateway wider than this [m] has no leaf."""
 ROBOT = 0.35
 """Free space [m] left beside what is put into a room: the radius of a robot and a little more."""
@@ -89,20 +93,32 @@ def make_real(
 
 def proportions_of(atlas: Atlas, graph: CellGraph, severity: float, rng: np.random.Generator) -> Proportions:
     """Draw proportions in which a robot fits through all passages, if the drawing allows it."""
-    told = atlas.sketch.metres_per_unit
-    scale = told if told is not None else math.exp(-atlas.log_scale)
-    drawn = Proportions.at_random(atlas.sketch.bounds, scale, severity, rng)
-    widths = [
-        float(np.hypot(*np.diff(drawn.world_from_sketch(gateway.segment), axis=0)[0]))
-        for gateway in graph.gateways
-    ]
+    drawn = Proportions.at_random(atlas.sketch.bounds, scale_of(atlas, graph), severity, rng)
+    widths = [width_of(drawn.world_from_sketch(gateway.segment)) for gateway in graph.gateways]
     narrowest = max(min(widths, default=NARROWEST), 1e-6)
     return drawn.scaled(min(max(NARROWEST / narrowest, 1.0), MOST_WIDENING))
 
 
+def scale_of(atlas: Atlas, graph: CellGraph) -> float:
+    """Choose how large the building is [m per drawing unit]: as the drawing says, else as its doors say."""
+    if atlas.sketch.metres_per_unit is not None:
+        return atlas.sketch.metres_per_unit
+    if not graph.gateways:
+        return math.exp(-atlas.log_scale)
+    by_doors = math.log(float(np.quantile([gateway.width for gateway in graph.gateways], 0.25)) / DOOR)
+    off = min(max(by_doors - atlas.log_scale, -TRUST_IN_DOORS), TRUST_IN_DOORS)
+    return math.exp(-(atlas.log_scale + off))
+
+
+def width_of(opening: Array) -> float:
+    """Measure an opening (2, 2) [m]."""
+    return float(np.hypot(*(opening[1] - opening[0])))
+
+
 def carried_cell(cell: Cell, proportions: Proportions) -> shapely.Polygon:
-    """Carry a cell to the world."""
-    return shapely.transform(cell.polygon, proportions.world_from_sketch).buffer(0.0)
+    """Carry a cell to the world; its outline runs counter-clockwise."""
+    carried = shapely.transform(cell.polygon, proportions.world_from_sketch)
+    return shapely.orient_polygons(shapely.make_valid(carried) if not carried.is_valid else carried)
 
 
 def furnish(
@@ -164,7 +180,7 @@ def hang_doors(openings: Sequence[Array], severity: float, rng: np.random.Genera
             rng.uniform(20.0, 200.0),
             rng.uniform(20.0, 60.0),
         )
-        if float(np.hypot(*(opening[1] - opening[0]))) <= WIDEST_DOOR:
+        if width_of(opening) <= WIDEST_DOOR:
             doors.append(Door(opening.ravel(), ((since, since + lasts),) if closes else ()))
     return doors
 

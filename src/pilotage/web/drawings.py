@@ -3,7 +3,7 @@
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -12,6 +12,9 @@ from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Array
 from pilotage.maps import SchematicMap
 from pilotage.web.order import Sent
+
+if TYPE_CHECKING:
+    from pilotage.io.maps import Drawing
 
 Json: TypeAlias = dict[str, object]
 Rows: TypeAlias = list[list[float]]
@@ -27,15 +30,15 @@ class UnreadableError(PilotageError):
     """A drawing cannot be read; the message says why, without the name of a file that the user never saw."""
 
 
-def read_sent(sent: Sent) -> SchematicMap:
+def read_sent(sent: Sent) -> "Drawing":
     """Read a drawing; UnreadableError if that fails."""
-    from pilotage.io import open_map
+    from pilotage.io.maps import open_drawing
 
     with tempfile.TemporaryDirectory(prefix="pilotage-") as folder:
         path = Path(folder) / f"drawing{sent.suffix}"
         path.write_bytes(sent.content)
         try:
-            return open_map(path)
+            return open_drawing(path)
         except FileError as error:
             raise UnreadableError(error.rule) from error
 
@@ -63,6 +66,10 @@ class Page:
         """Carry a point of the page to the axes of the drawing's file, as `Navigator` takes it."""
         return (x, y) if self.sketch.y_down else (x, -y)
 
+    def from_file(self, point: tuple[float, float]) -> list[float]:
+        """Carry a point from the axes of the drawing's file."""
+        return self.points(self.sketch.sketch_from_file(np.array([point], dtype=np.float64)))[0]
+
     @property
     def bounds(self) -> list[float]:
         """Left, top, right and bottom."""
@@ -89,19 +96,27 @@ def describe_drawing(sketch: SchematicMap) -> Json:
         "strokes": [
             {"points": page.points(stroke.vertices), "closed": stroke.closed} for stroke in sketch.strokes
         ],
-        "labels": [
-            {"text": label.text, **dict(zip("xy", page.point(label.position) or [], strict=True))}
-            for label in sketch.labels
-        ],
+        "labels": labels_of(sketch),
         "start": page.point(sketch.start),
         "goal": page.point(sketch.goal),
     }
 
 
+def labels_of(sketch: SchematicMap) -> list[Json]:
+    """List the words of a drawing, and where they stand."""
+    if not sketch.labels:
+        return []
+    places = Page(sketch).points(np.array([label.position for label in sketch.labels]))
+    return [{"text": label.text, "x": x, "y": y} for label, (x, y) in zip(sketch.labels, places, strict=True)]
+
+
 def read_upload(sent: Sent) -> Json:
     """Read a file of any kind, and make a drawing of it that can be drawn on."""
-    sketch = read_sent(sent)
-    notes = [f"{len(sketch.strokes)} strokes were taken for walls"]
+    drawing = read_sent(sent)
+    sketch = drawing.sketch
+    notes = [f"{len(sketch.strokes)} strokes were taken for walls", *drawing.remarks]
+    if drawing.interpretation is not None:
+        notes += drawing.interpretation.sheet.left_out
     return {**describe_drawing(sketch), "svg": svg_of(sketch), "notes": notes}
 
 
@@ -118,9 +133,10 @@ def svg_of(sketch: SchematicMap) -> str:
         path = " L".join(f"{x:g} {y:g}" for x, y in page.points(stroke.vertices))
         lines.append(f'<path d="M{path}{" Z" if stroke.closed else ""}"/>')
     lines.append(f'</g><g font-size="{10.0 * width:g}" text-anchor="middle">')
-    for label in sketch.labels:
-        (x, y) = page.point(label.position) or (0.0, 0.0)
-        lines.append(f'<text x="{x:g}" y="{y:g}">{escape(label.text)}</text>')
+    lines += [
+        f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'
+        for label in labels_of(sketch)
+    ]
     lines.append("</g>")
     for role, point in (("start", sketch.start), ("goal", sketch.goal)):
         if point is not None:

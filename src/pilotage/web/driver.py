@@ -16,7 +16,7 @@ from pilotage.web.order import SPEEDS, Order, number, place, switch
 from pilotage.web.stage import Stage, set_stage
 from pilotage.web.words import name_of
 
-FRAME_EVERY = 1.0 / 12.0
+FRAME_EVERY = 1.0 / 20.0
 """Time [s] on the clock between frames, at least,"""
 RECORD_EVERY = 0.5
 """and time [s] of the drive, at most."""
@@ -60,8 +60,7 @@ class Driver:
 
     def run(self) -> None:
         """Begin, and go on until the connection is closed."""
-        self._send("session", self._stage.describe(self._order.title))
-        self._send("world", self._stage.describe_world())
+        self._introduce()
         self._due = time.monotonic()
         self._step()
         self._tell()
@@ -73,6 +72,12 @@ class Driver:
             if not self._stands and time.monotonic() >= self._due:
                 self._step()
                 self._pace()
+
+    def _introduce(self) -> None:
+        """Say what this drive is about."""
+        how = {"speed": self._speed, "paused": self._paused, "over": self._over}
+        self._send("session", {**self._stage.describe(self._order.title), **how})
+        self._send("world", self._stage.describe_world())
 
     @property
     def _stands(self) -> bool:
@@ -187,8 +192,7 @@ class Driver:
         self._stage.set_goal(place(message.get("goal"), "goal"))
         self._mark("fate", f"the goal is now {self._stage.goal_name}")
         self._over, self._due = False, time.monotonic()
-        self._send("world", self._stage.describe_world())
-        self._send("session", self._stage.describe(self._order.title))
+        self._introduce()
         self._tell()
 
     def _stop(self, _message: Message) -> None:

@@ -3,16 +3,21 @@
 import itertools
 import logging
 
+STEPS = 40
+"""Steps after which the robot has looked around, searched the drawing and planned."""
+
 
 def load() -> None:
-    """Drive a few steps in a packed building, so that every kernel is in memory."""
+    """Understand a drawing and drive a few steps by it, so that every kernel is in memory."""
     from pilotage.drives import drive, set_out
     from pilotage.io import open_map, open_world
+    from pilotage.web.order import Sent
+    from pilotage.web.understanding import understand
     from pilotage.worlds import OFFICE
 
+    understand(Sent(".svg", OFFICE.careful.read_bytes()))
     navigator, simulator = set_out(open_map(OFFICE.careful), open_world(OFFICE.world), "Ana")
-    for _ in itertools.islice(drive(navigator, simulator), 40):
-        pass
+    list(itertools.islice(drive(navigator, simulator), STEPS))
 
 
 try:

@@ -85,6 +85,7 @@ def listen(host: str, port: int) -> socket.socket:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             opened.bind((host, candidate))
+            opened.listen(MOST_WAITING)  # who asks before the server is ready waits, and is not turned away
         except (OSError, OverflowError) as error:
             opened.close()
             problem = error

@@ -158,7 +158,7 @@ class Session:
         if kind == "session":
             said |= {"session": self.number, "resumed": False}
         elif kind == "state":
-            said["recorded"] = self.history.span
+            said["recorded"] = self.history.span or None
             self.stands = said["paused"] is True or said["over"] is True
             if said["over"] is False:
                 self.outcome = None

@@ -92,7 +92,7 @@ class Stage:
 def set_stage(order: Order) -> Stage:
     """Read drawing and world, and put the robot down; PilotageError or ValueError if that cannot be done."""
     settings = Settings()
-    atlas = build_atlas(read_sent(order.drawing), settings.localizer.atlas)
+    atlas = build_atlas(read_sent(order.drawing).sketch, settings.localizer.atlas)
     page = Page(atlas.sketch)
     goal = goal_of(order, page)
     told = None if order.start is None else (*page.file_point(*order.start[:2]), *order.start[2:])

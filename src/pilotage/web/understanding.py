@@ -1,24 +1,13 @@
 """What the robot would understand of a drawing: cells, gateways, names, findings and a route; in a worker."""
 
 import time
-from collections import Counter
-from itertools import pairwise
 
 import numpy as np
-import shapely
 
 from pilotage.config import Settings
-from pilotage.maps import (
-    CellGraph,
-    NotEnclosedError,
-    RouteError,
-    SchematicMap,
-    check_place,
-    decompose,
-    find_labeled,
-    find_route,
-)
-from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, read_sent
+from pilotage.findings import Finding, Severity, report
+from pilotage.maps import CellGraph, RouteError, SchematicMap, check_place, find_labeled, find_route
+from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, labels_of, read_sent
 from pilotage.web.order import Place, Sent
 
 
@@ -29,33 +18,26 @@ def understand(sent: Sent, ends: tuple[Place, Place] | None = None) -> Json:
     """
     began = time.perf_counter()
     try:
-        sketch = read_sent(sent)
+        drawing = read_sent(sent)
     except UnreadableError as error:
-        return {
-            "v": 1,
-            "ms": elapsed(began),
-            **NOTHING,
-            "findings": [finding("unreadable", "error", str(error))],
-        }
-    page = Page(sketch)
-    told = {"v": 1, **describe_drawing(sketch)}
-    try:
-        graph = decompose(sketch, Settings().localizer.atlas.decomposition)
-    except NotEnclosedError as error:
-        findings = [finding("nothing enclosed", "error", str(error))]
-        return {**NOTHING, **told, "ms": elapsed(began), "findings": findings}
-    findings = find_faults(sketch, graph)
-    route = None
-    if ends is not None:
+        findings = [failure("unreadable", Severity.ERROR, str(error))]
+        return {"v": 1, "ms": elapsed(began), **NOTHING, "findings": findings}
+    sketch, page = drawing.sketch, Page(drawing.sketch)
+    found = report(sketch, drawing.interpretation, settings=Settings().localizer.atlas.decomposition)
+    findings = [describe_finding(page, one) for one in found.findings]
+    told = {**NOTHING, "v": 1, **describe_drawing(sketch), "assumed": list(drawing.remarks)}
+    if found.graph is not None:
+        told |= describe_cells(page, found.graph)
+        cells = cells_of_labels(sketch, found.graph)
+        told["labels"] = [
+            {**label, "cell": cell} for label, cell in zip(labels_of(sketch), cells, strict=True)
+        ]
+    if found.graph is not None and ends is not None:
         try:
-            route = describe_route(page, graph, ends)
+            told["route"] = describe_route(page, found.graph, ends)
         except RouteError as error:
-            findings.append(finding("no route", "warning", str(error)))
-    told["labels"] = [
-        {"text": label.text, **dict(zip("xy", page.point(label.position) or [], strict=True)), "cell": cell}
-        for label, cell in zip(sketch.labels, cells_of_labels(sketch, graph), strict=True)
-    ]
-    return {**told, **describe_cells(page, graph), "findings": findings, "route": route, "ms": elapsed(began)}
+            findings.append(failure("no-route", Severity.WARNING, str(error)))
+    return {**told, "findings": findings, "ms": elapsed(began)}
 
 
 NOTHING: Json = {
@@ -64,6 +46,7 @@ NOTHING: Json = {
     "cells": [],
     "gateways": [],
     "labels": [],
+    "assumed": [],
     "start": None,
     "goal": None,
     "route": None,
@@ -122,62 +105,26 @@ def cells_of_labels(sketch: SchematicMap, graph: CellGraph) -> list[str]:
     return found
 
 
-def find_faults(sketch: SchematicMap, graph: CellGraph) -> list[Json]:
-    """Find what a person probably did not mean."""
-    page = Page(sketch)
-    findings = []
-    for cell in graph.cells:
-        if len(graph.cells) > 1 and not graph.gateways_of(cell.cell_id):
-            name = cell.label or cell.cell_id
-            mend = door_into(page, graph, cell.cell_id)
-            text = f"{name} has no door, nobody can go there"
-            findings.append(finding("no door", "warning", text, page.point(cell.center), mend))
-    names = Counter(cell.label.casefold() for cell in graph.cells if cell.label)
-    for cell in graph.cells:
-        if names[cell.label.casefold()] > 1:
-            text = f"two rooms are called {cell.label}, so the name is no goal"
-            findings.append(finding("same name", "note", text, page.point(cell.center)))
-    for label, cell_id in zip(sketch.labels, cells_of_labels(sketch, graph), strict=True):
-        if not cell_id:
-            text = f'"{label.text}" stands in no room'
-            findings.append(finding("label outside", "note", text, page.point(label.position)))
-    for what, point in (("goal", sketch.goal), ("start", sketch.start)):
-        if point is not None:
-            try:
-                check_place(graph, point, what)
-            except RouteError as error:
-                findings.append(finding(f"{what} outside", "error", str(error), page.point(point)))
-    return findings
+def describe_finding(page: Page, one: Finding) -> Json:
+    """Tell one finding, and what a pen would do about it."""
+    mend = None
+    if one.mend is not None:
+        segment = [page.from_file(point) for point in one.mend.segment]
+        mend = {"kind": one.mend.kind.value, "text": one.mend.words, "segment": segment}
+    return {
+        "kind": one.kind,
+        "severity": one.severity.value,
+        "text": one.text,
+        "advice": one.advice,
+        "where": None if one.where is None else page.from_file(one.where),
+        "mend": mend,
+    }
 
 
-def door_into(page: Page, graph: CellGraph, cell_id: str) -> Json | None:
-    """Propose where to cut a door into a cell: in the longest straight wall that it shares with another."""
-    widths = [gateway.width for gateway in graph.gateways]
-    polygon = graph.cell(cell_id).polygon
-    width = float(np.median(widths)) if widths else 0.2 * float(np.sqrt(polygon.area))
-    thickest = 0.5 * width
-    others = shapely.union_all([cell.polygon for cell in graph.cells if cell.cell_id != cell_id])
-    ring = shapely.get_coordinates(polygon.exterior)
-    shared = [
-        part
-        for ends in pairwise(ring)
-        for part in shapely.get_parts(shapely.LineString(ends).intersection(others.buffer(thickest)))
-        if part.geom_type == "LineString"
-    ]
-    if not shared:
-        return None
-    wall = max(shared, key=lambda part: float(part.length))
-    half = min(width, 0.8 * float(wall.length)) / 2.0
-    middle = float(wall.length) / 2.0
-    opening = [shapely.get_coordinates(wall.interpolate(middle + side))[0] for side in (-half, half)]
-    return {"kind": "cut", "text": "cut a door here?", "segment": page.points(np.array(opening))}
-
-
-def finding(
-    kind: str, severity: str, text: str, where: list[float] | None = None, mend: Json | None = None
-) -> Json:
-    """Tell one finding."""
-    return {"kind": kind, "severity": severity, "text": text, "where": where, "mend": mend}
+def failure(kind: str, severity: Severity, text: str) -> Json:
+    """Tell as a finding why something could not be done."""
+    told = {"text": text, "advice": "", "where": None, "mend": None}
+    return {"kind": kind, "severity": severity.value, **told}
 
 
 def elapsed(began: float) -> float:

@@ -38,7 +38,7 @@ def context() -> ForkServerContext | SpawnContext:
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     forking = multiprocessing.get_context("forkserver")
-    forking.set_forkserver_preload(["pilotage.web.preload"])
+    forking.set_forkserver_preload(["__main__", "pilotage.web.preload"])
     return forking
 
 

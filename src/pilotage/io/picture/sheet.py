@@ -12,12 +12,13 @@ from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.light import flatten
 from pilotage.io.picture.photo import find_paper, is_photo, straighten
 from pilotage.io.picture.text import find_words
-from pilotage.io.picture.trace import Area, Line, pen_width_of, trace
+from pilotage.io.picture.trace import Area, Line, trace
+from pilotage.io.picture.width import least_area_width, widths_of
 
 ENOUGH = 2_000_000
 """A picture of more pixels than this is read at a half, a third, ... of its size."""
 
-FEW = 700_000
+FEW = 1_000_000
 """A picture of fewer pixels is read at twice its size, for its lines are a pixel or two wide."""
 
 
@@ -61,9 +62,12 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
     flat = flatten(working, is_photo=photo)
     ink = find_ink(flat)
     middle = skeletonize(ink.mask)
-    pen_width = pen_width_of(ink.mask, middle)
+    widths = widths_of(ink.mask, middle)
+    pen_width = float(np.median(widths)) if widths.size else 1.0
     words = find_words(ink.mask, middle, pen_width)
-    areas, lines = trace(ink.mask & ~words, flat, pen_width)
+    drawn = ink.mask & ~words
+    width = least_area_width(widths_of(drawn, middle & drawn), pen_width, float(np.hypot(*drawn.shape)))
+    areas, lines = trace(drawn, flat, pen_width, width)
     return Sheet(
         marks_of(areas, lines, Plane(scale, corner)),
         y_down=True,

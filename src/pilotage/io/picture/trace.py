@@ -9,32 +9,20 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
+from pilotage.io.picture.colors import DARK, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
 from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
 
-FAT = 2.2
-"""Ink wider than so many widths of the pen is an area."""
-
-LEAST_FAT = 0.004
-"""And wider than this share of the picture's diagonal: lines of two pens are lines."""
+DOORS = (0.01, 0.12)
+"""Doors are this wide, as shares of the picture's diagonal."""
 
 RIM = 2
 """Ink is blurred over so many pixels."""
 
-CORNER = 1.5
-"""The corner of an area is so many times as far from where a disk fits as its sides are."""
-
-DOORS = (0.01, 0.12)
-"""Doors are this wide, as shares of the picture's diagonal."""
-
 STAIR = 0.8
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
-
-
-DARK = 0.5
-"""Ink with no color brighter than this share of paper is black, or a pen's blue: no floor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,30 +42,27 @@ class Area:
     color: Color
 
 
-def pen_width_of(ink: Mask, middle: Mask) -> float:
-    """Measure the width of most strokes [pixels], given the ink and its middle lines."""
+def trace(
+    ink: Mask, flat: NDArray[np.float32], pen_width: float, width: float
+) -> tuple[list[Area], list[Line]]:
+    """Trace ink on flattened paper (height, width, 3), what is wider than a width [pixels] as areas.
+
+    Each color of fat ink is traced by itself.
+    """
     from scipy.ndimage import distance_transform_edt
 
-    if not middle.any():
-        return 1.0
-    return float(max(1.0, 2.0 * np.median(distance_transform_edt(ink)[middle]) - 0.5))
-
-
-def trace(ink: Mask, flat: NDArray[np.float32], pen_width: float) -> tuple[list[Area], list[Line]]:
-    """Trace ink on flattened paper (height, width, 3), each color of fat ink by itself."""
-    from scipy.ndimage import distance_transform_edt
-
-    width = max(FAT * pen_width, LEAST_FAT * float(np.hypot(*ink.shape)))
-    dark = ink & (flat.max(axis=2) < DARK)
-    fat_dark, fat_pale = fat_parts(dark, width), fat_parts(ink & ~dark, width)
-    thin = ((ink & ~rimmed(fat_pale)) | dark) & ~rimmed(fat_dark)
+    fat, grounds = fat_ink(ink, flat, width)
+    black = ink & (flat.max(axis=2) < DARK)
+    thin = (ink & ~rimmed(grounds)) | (black & ~grounds)
+    for color in fat:
+        thin &= ~rimmed(color)
     depth = distance_transform_edt(np.pad(thin, 1))[1:-1, 1:-1]
     lines = []
     for points in lines_of(thin, ink, pen_width):
         rows, columns = pixels_along(points, ink.shape)
         broad = float(max(1.0, 2.0 * np.median(depth[rows, columns]) - 0.5))
         lines.append(Line(points, broad, color_of(flat[rows, columns])))
-    return [*areas_of(fat_pale, flat), *areas_of(fat_dark, flat)], lines
+    return [area for color in fat for area in areas_of(color, flat)], lines
 
 
 def lines_of(thin: Mask, ink: Mask, pen_width: float) -> list[Array]:
@@ -104,16 +89,6 @@ def color_of(pixels: NDArray[np.float32]) -> Color:
     return red, green, blue
 
 
-def fat_parts(ink: Mask, width: float) -> Mask:
-    """Mark ink that a disk of this width [pixels] fits into, (height, width)."""
-    from scipy.ndimage import distance_transform_edt
-
-    core = distance_transform_edt(np.pad(ink, 1))[1:-1, 1:-1] > width / 2.0
-    if not core.any():
-        return np.zeros_like(ink)
-    return np.asarray(ink & (distance_transform_edt(~core) <= CORNER * width / 2.0 + 1.0))
-
-
 def rimmed(fat: Mask) -> Mask:
     """Add the blurred rim of fat ink, which is no line beside it."""
     from scipy.ndimage import binary_dilation
@@ -122,20 +97,30 @@ def rimmed(fat: Mask) -> Mask:
 
 
 def areas_of(fat: Mask, flat: NDArray[np.float32]) -> list[Area]:
-    """Trace the outlines of areas and their holes."""
-    from skimage.measure import find_contours, label, regionprops
+    """Trace the outlines of areas and their holes; areas of one hue have one color."""
+    from skimage.measure import label, regionprops
 
-    areas = []
-    for island in regionprops(label(fat, connectivity=1)):
-        top, left = island.bbox[:2]
-        contours = find_contours(np.pad(island.image, 1).astype(np.float64), 0.5)
-        rings = [np.column_stack([ring[:, 1] + left - 0.5, ring[:, 0] + top - 0.5]) for ring in contours]
-        straight = [
-            shapely.get_coordinates(ring)
-            for ring in shapely.simplify([shapely.LineString(r) for r in rings], STAIR)
-        ]
-        outlines = tuple(ring[:-1] for ring in straight if len(ring) > 3)
-        if outlines:
-            rows, columns = island.coords.T
-            areas.append(Area(outlines, color_of(flat[rows, columns])))
-    return areas
+    islands = regionprops(label(fat, connectivity=1))
+    pixels = [flat[tuple(island.coords.T)] for island in islands]
+    hues = [hue_of(color_of(colors)) for colors in pixels]
+    colors = {
+        hue: color_of(
+            np.concatenate([part for part, other in zip(pixels, hues, strict=True) if other == hue])
+        )
+        for hue in set(hues)
+    }
+    areas = [
+        Area(outlines_of(island.image, island.bbox[:2]), colors[hue])
+        for island, hue in zip(islands, hues, strict=True)
+    ]
+    return [area for area in areas if area.rings]
+
+
+def outlines_of(image: Mask, corner: tuple[int, int]) -> tuple[Array, ...]:
+    """Trace an island, given its pixels and the row and column of their corner, rings (n, 2) y down."""
+    from skimage.measure import find_contours
+
+    contours = find_contours(np.pad(image, 1).astype(np.float64), 0.5)
+    rings = [shapely.LineString(ring[:, ::-1] + (corner[1] - 0.5, corner[0] - 0.5)) for ring in contours]
+    straight = [shapely.get_coordinates(ring)[:-1] for ring in shapely.simplify(rings, STAIR)]
+    return tuple(ring for ring in straight if len(ring) > 2)

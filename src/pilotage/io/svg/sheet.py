@@ -83,7 +83,11 @@ def color_of(drawn: Drawn, name: str) -> Color:
 def opacity(drawn: Drawn, name: str) -> float:
     """Tell how much of what lies below the paint of "stroke" or "fill" hides, 0 to 1."""
     color = svgelements.Color(drawn.style.paint(name))
-    return color.opacity * drawn.style.opacity * leading_number(drawn.style.values[f"{name}-opacity"], 1.0)
+    return (
+        float(color.opacity)
+        * drawn.style.opacity
+        * leading_number(drawn.style.values[f"{name}-opacity"], 1.0)
+    )
 
 
 def stands(item: Drawn) -> bool:

@@ -22,9 +22,7 @@ INITIAL: Mapping[str, str] = {
 }
 """The properties that children inherit and that matter here, with the values a document begins with."""
 
-COMMENT = re.compile(r"/\*.*?\*/|<!--|-->", re.DOTALL)
-AT_RULE = re.compile(r"@[^{};]+\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}|@[^;{}]+;")
-RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
+BRACE = re.compile(r"[{};]")
 COMPOUND = re.compile(r"([\w-]+|\*)?((?:[.#][\w-]+)*)")
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)")
 
@@ -107,17 +105,20 @@ class Selector:
         return text.count("#"), text.count("."), tags
 
     def matches(self, chain: Sequence[Element]) -> bool:
-        """Tell whether it selects the last element of a chain that begins at the root."""
-        return self._matches(chain, len(self.compounds) - 1)
+        """Tell whether it selects the last element of a chain that begins at the root.
 
-    def _matches(self, chain: Sequence[Element], k: int) -> bool:
-        if not chain or not compound_matches(self.compounds[k], chain[-1]):
-            return False
-        if k == 0:
-            return True
-        if self.child[k - 1]:
-            return self._matches(chain[:-1], k - 1)
-        return any(self._matches(chain[:end], k - 1) for end in range(len(chain) - 1, 0, -1))
+        Goes up the chain once, with all compounds that an element may stand for.
+        """
+        wanted, descendants = {len(self.compounds) - 1}, set[int]()
+        for element in reversed(chain):
+            found = {k for k in wanted if compound_matches(self.compounds[k], element)}
+            if 0 in found:
+                return True
+            descendants |= {k - 1 for k in found if not self.child[k - 1]}
+            wanted = descendants | {k - 1 for k in found}
+            if not wanted:
+                return False
+        return False
 
 
 def compound_matches(compound: str, element: Element) -> bool:
@@ -164,11 +165,43 @@ def is_named(node: Element, name: str) -> bool:
 
 def read_rules(text: str) -> Iterator[tuple[Selector, Mapping[str, str]]]:
     """Read the rules of a style sheet that this reader understands."""
-    for names, body in RULE.findall(AT_RULE.sub("", COMMENT.sub("", text))):
+    for names, body in plain_blocks(without_comments(text)):
         for name in names.split(","):
             selector = Selector.read(name)
             if selector is not None:
                 yield selector, declarations(body)
+
+
+def without_comments(text: str) -> str:
+    """Take away comments of CSS, and the marks of those of XML.
+
+    >>> without_comments("a /* b */ c <!-- d")
+    'a  c  d'
+    """
+    head, *others = text.split("/*")
+    kept = "".join([head, *(part.partition("*/")[2] for part in others)])
+    return kept.replace("<!--", "").replace("-->", "")
+
+
+def plain_blocks(text: str) -> Iterator[tuple[str, str]]:
+    """Yield what stands before each pair of braces and in it; @-rules and what is in them are left out.
+
+    >>> list(plain_blocks("@import x; a {b: c} @media print {d {e: f}} g {}"))
+    [(' a ', 'b: c'), (' g ', '')]
+    """
+    depth, start, names = 0, 0, ""
+    for mark in BRACE.finditer(text):
+        if mark[0] == "{":
+            if depth == 0:
+                names, start = text[start : mark.start()], mark.end()
+            depth += 1
+        elif mark[0] == "}":
+            if depth == 1 and not names.lstrip().startswith("@"):
+                yield names, text[start : mark.start()]
+            depth = max(depth - 1, 0)
+            start = mark.end() if depth == 0 else start
+        elif depth == 0:
+            start = mark.end()
 
 
 @dataclass(frozen=True, slots=True)

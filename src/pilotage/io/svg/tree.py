@@ -101,6 +101,12 @@ class Place:
 MAX_ELEMENTS = 100_000
 """Elements of a drawing, repeated ones too: a few nested `use` could ask for millions."""
 
+MAX_HANDED_DOWN = 20_000_000
+"""Elements times what they stand in: for 100,000 elements 200, of which programs write some dozens."""
+
+MAX_LETTERS = 2_000_000
+"""Letters of all paths and lists of points together: some seconds of reading."""
+
 UNKNOWN_PAGE = Viewport(0.0, 0.0, 100.0, 100.0)
 """What percentages refer to in a document that does not tell its size."""
 
@@ -127,13 +133,17 @@ def walk(root: Element) -> Iterator[Drawn]:
     """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
     sheet = StyleSheet.of(root)
     by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
+    check_size(root)
     waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
-    count = 0
+    count, handed_down = 0, 0
     while waiting:
         place = waiting.pop()
         count += 1
         if count > MAX_ELEMENTS:
             raise ValueError(f"more than {MAX_ELEMENTS} elements, those that <use> repeats among them")
+        handed_down += len(place.chain) * (1 + len(place.chain[-1]))
+        if handed_down > MAX_HANDED_DOWN:
+            raise ValueError("too many elements in each other")
         element = place.chain[-1]
         tag = local_name(element.tag) if isinstance(element.tag, str) else ""
         if tag not in DRAWN and tag not in HOLDING and tag != "use":
@@ -170,6 +180,16 @@ def walk(root: Element) -> Iterator[Drawn]:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
             children = alternatives(element) if tag == "switch" else list(element)
             waiting.extend(replace(inside, chain=(*inside.chain, child)) for child in reversed(children))
+
+
+def check_size(root: Element) -> None:
+    """Raise ValueError for a document that would take minutes."""
+    shapes = [node for node in root.iter() if isinstance(node.tag, str) and local_name(node.tag) in DRAWN]
+    if len(shapes) > MAX_ELEMENTS:
+        raise ValueError(f"more than {MAX_ELEMENTS} shapes")
+    letters = sum(len(node.get(name, "")) for node in shapes for name in ("d", "points"))
+    if letters > MAX_LETTERS:
+        raise ValueError(f"paths of more than {MAX_LETTERS} letters")
 
 
 def alternatives(switch: Element) -> list[Element]:

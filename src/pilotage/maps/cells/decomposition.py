@@ -65,7 +65,7 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     numbers, polygons = outlines(space.tessellation, regions)
     diameter = diameter_of(np.vstack([stroke.vertices for stroke in sketch.strokes]))
     words = words_in(polygons, sketch.labels)
-    ids = identify(polygons, words, diameter, y_down=sketch.y_down)
+    ids = identify(polygons, words, diameter, sketch.file_axes)
     gateways = find_gateways(space.tessellation, regions, dict(zip(numbers, ids, strict=True)))
     return Division(space, CellGraph(new_cells(polygons, ids, words), gateways, diameter))
 

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from pilotage.maps.file_axes import FileAxes
+
 ROUNDING = 0.02
 """Middles are rounded to the power of ten below this share of the drawing's diameter."""
 
@@ -19,11 +21,11 @@ LONGEST = 40
 
 
 def identify(
-    polygons: Sequence[shapely.Polygon], words: Sequence[Sequence[str]], diameter: float, *, y_down: bool
+    polygons: Sequence[shapely.Polygon], words: Sequence[Sequence[str]], diameter: float, axes: FileAxes
 ) -> list[str]:
-    """Name cells, the largest first, by the labels in each, else by their middles [drawing units], y up."""
+    """Name cells, the largest first, by the labels in each, else by their middles."""
     names = [
-        next((slug for text in texts if (slug := slug_of(text))), "") or place_name(polygon, diameter, y_down)
+        next((slug for text in texts if (slug := slug_of(text))), "") or place_name(polygon, diameter, axes)
         for polygon, texts in zip(polygons, words, strict=True)
     ]
     return numbered(names)
@@ -38,13 +40,14 @@ def slug_of(label: str) -> str:
     return re.sub(r"[\W_]+", "-", label.casefold()[:LONGEST]).strip("-")
 
 
-def place_name(polygon: shapely.Polygon, diameter: float, y_down: bool) -> str:  # noqa: FBT001  # one fact
+def place_name(polygon: shapely.Polygon, diameter: float, axes: FileAxes) -> str:
     """Write where a cell is: its middle, or a point in it if that is not in it, rounded."""
     middle = polygon.centroid
     if not polygon.covers(middle):
         middle = polygon.point_on_surface()
     digits = -math.floor(math.log10(ROUNDING * diameter))
-    x, y = (number(value, digits) for value in (middle.x, -middle.y if y_down else middle.y))
+    place = axes.from_sketch(np.array([(middle.x, middle.y)]))[0]
+    x, y = (number(value, digits) for value in place.tolist())
     return f"x{x}y{y}"
 
 

@@ -1,0 +1,105 @@
+"""`pilotage record`: what is believed along a log or a drive, as standard messages of ROS 2."""
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.places import parse_pose
+from pilotage.cli.run import OdometryTopic, ScanTopic, open_localizer, read_stretch, run, summary
+from pilotage.cli.terminal import busy, check_outputs, say
+from pilotage.errors import FileError
+
+if TYPE_CHECKING:
+    from pilotage.io.bags.belief import Belief, MapFrame
+    from pilotage.maps import CellGraph, SchematicMap
+    from pilotage.perception import Reading
+
+
+def record(
+    drawing: Map,
+    log: Annotated[
+        Path,
+        typer.Argument(
+            metavar="LOG", help="A laser log, as for `localize`, or the journal of a drive (JSON Lines)."
+        ),
+    ],
+    *,
+    output: Annotated[Path, typer.Option("-o", "--output", help="The MCAP file to write.")],
+    start: Annotated[
+        str | None, typer.Option(metavar="X,Y,HEADING_DEG", help="Where the robot starts, as for `localize`.")
+    ] = None,
+    scale: Annotated[
+        float | None, typer.Option(help="Drawing units per metre, for the frame `map` as well.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    scan_topic: ScanTopic = None,
+    odometry_topic: OdometryTopic = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+) -> None:
+    """Write what is believed along a log or a drive as an MCAP file of standard messages.
+
+    Foxglove, Lichtblick and RViz show it without a plug-in: pose and transforms in
+    the frame *map*, path, drawing, cells, hypotheses, occupancy grid and diagnostics.
+    The frame *map* is the drawing at one scale: `--scale`, or what the file says, or
+    the scale at the end of the log.
+
+    **Example:** `pilotage record office.svg run.mcap -o beliefs.mcap`
+    """
+    check_outputs([output], force=force)
+    if output.suffix != ".mcap":
+        raise FileError("the name of the output must end in .mcap", output)
+    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
+        raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
+    from pilotage.io.bags.belief import Belief, MapFrame
+    from pilotage.io.records import is_records, read_records
+
+    sketch = open_drawing(drawing, layer, label, page, shading).sketch
+    if is_records(log):
+        records = read_records(log)
+        frame = MapFrame(sketch, scale_of(sketch, scale, [one["scale"] for one in records]))
+        localizer = open_localizer(sketch, settings, seed, None, scale)
+        try:
+            told = [(Belief.of_record(one, frame), None) for one in records]
+        except (KeyError, TypeError, ValueError) as error:
+            raise FileError(f"a line is no estimate of this program ({error})", log) from error
+        write(output, frame, localizer.atlas.cell_graph, iter(told))
+    else:
+        readings = read_stretch(log, 0, None, scan_topic, odometry_topic)
+        known = None if start is None else parse_pose(start, "--start")
+        localizer = open_localizer(sketch, settings, seed, known, scale)
+        estimates = run(localizer, readings, lambda _estimate: None)
+        frame = MapFrame(sketch, scale_of(sketch, scale, [one.scale for one in estimates]))
+        beliefs = (Belief.of_estimate(estimate, frame) for estimate in estimates)
+        write(output, frame, localizer.atlas.cell_graph, zip(beliefs, readings, strict=True))
+        say(summary(estimates))
+    say(f"written to {output}; the frame map has {frame.scale:.6g} drawing units per metre")
+
+
+def scale_of(sketch: "SchematicMap", given: float | None, estimated: Sequence[float]) -> float:
+    """Choose the scale of the frame `map` [drawing units per metre]."""
+    if given is not None:
+        return given
+    return 1.0 / sketch.metres_per_unit if sketch.metres_per_unit else float(estimated[-1])
+
+
+def write(
+    output: Path,
+    frame: "MapFrame",
+    graph: "CellGraph | None",
+    told: "Iterator[tuple[Belief, Reading | None]]",
+) -> None:
+    """Write the file."""
+    from pilotage.io.bags.recorder import recording
+
+    with busy("Writing"), recording(output, frame, graph) as recorder:
+        for belief, reading in told:
+            recorder.add(belief, reading)

@@ -1,0 +1,54 @@
+"""A quarter of a minute of hostile files."""
+
+import os
+
+import pytest
+from tests.fuzz.__main__ import fuzz
+from tests.fuzz.bombs import bombs
+from tests.fuzz.seeds import seeds
+from tests.fuzz.worker import Worker
+
+SECONDS = 12.0
+
+
+@pytest.fixture(scope="module")
+def worker():
+    with Worker() as one:
+        yield one
+
+
+@pytest.mark.parametrize("name", sorted(seeds()))
+def test_the_files_are_read_before_they_are_spoilt(worker, tmp_path, name):
+    (tmp_path / "plan.png").write_bytes(seeds()["a.png"])
+    path = tmp_path / name
+    path.write_bytes(seeds()[name])
+    verdict = worker.read(path)
+
+    assert verdict.outcome in ("read", "refused"), verdict
+    assert "mistake" not in verdict.detail
+
+
+@pytest.mark.slow
+def test_spoilt_files_are_read_or_refused_in_one_line():
+    bad = [verdict for verdict in fuzz(1, SECONDS) if verdict.is_bad]
+
+    assert not bad
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(bombs()))
+def test_bombs_are_read_or_refused_in_bounded_time_and_memory(worker, tmp_path, name):
+    (tmp_path / "plan.png").write_bytes(seeds()["a.png"])
+    path = tmp_path / name
+    path.write_bytes(bombs()[name])
+    verdict = worker.read(path)
+
+    assert not verdict.is_bad, verdict
+
+
+@pytest.mark.parametrize("kind", ["a.svg", "a.png", "a.pdf", "a.dxf", "map.yaml"])
+def test_pipes_do_not_block(worker, tmp_path, kind):
+    path = tmp_path / kind
+    os.mkfifo(path)
+
+    assert "refused" == worker.read(path).outcome

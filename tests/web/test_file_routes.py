@@ -1,0 +1,165 @@
+import time
+from pathlib import Path
+
+import pytest
+from starlette.testclient import TestClient
+
+from pilotage.web import file_routes, work
+from web_table import CLOSED, FLAT
+
+SVG = {"Content-Type": "image/svg+xml"}
+
+
+def test_two_tabs_do_not_lose_each_others_work(client: TestClient, folder: Path) -> None:
+    made = client.put("/api/drawings/flat.svg", content=FLAT, headers={"If-None-Match": "*"})
+    tag = made.headers["etag"]
+    assert 201 == made.status_code
+    assert (
+        409 == client.put("/api/drawings/flat.svg", content="x", headers={"If-None-Match": "*"}).status_code
+    )
+
+    first = client.put("/api/drawings/flat.svg", content=CLOSED, headers={"If-Match": tag})
+    second = client.put("/api/drawings/flat.svg", content="late", headers={"If-Match": tag})
+
+    assert (200, 409) == (first.status_code, second.status_code)
+    assert first.json()["tag"] == second.json()["tag"]
+    assert CLOSED == (folder / "flat.svg").read_text() == client.get("/api/drawings/flat.svg").text
+    assert 428 == client.put("/api/drawings/flat.svg", content="x").status_code
+
+
+def test_nothing_outside_of_the_folder_is_reached(client: TestClient) -> None:
+    for name in (
+        "%2e%2e/secret.svg",
+        "..%2fsecret.svg",
+        "%2Fetc%2Fpasswd",
+        "a/%2e%2e/%2e%2e/secret.svg",
+        "x%00.svg",
+    ):
+        assert 400 == client.get(f"/api/drawings/{name}").status_code
+        assert (
+            400
+            == client.put(f"/api/drawings/{name}", content="x", headers={"If-None-Match": "*"}).status_code
+        )
+    assert 404 == client.get("/assets/%2e%2e/%2e%2e/secret.svg").status_code
+    assert 404 == client.get("/api/drawings/none.svg").status_code
+
+
+def test_cells_names_gateways_and_a_route_are_understood(client: TestClient) -> None:
+    found = client.post("/api/understand?from=kitchen&to=150,90", content=FLAT, headers=SVG).json()
+
+    assert {"kitchen", "office", "hall", "store"} == {cell["name"] for cell in found["cells"]}
+    assert 4 == len(found["gateways"])
+    assert [30.0, 30.0] == found["goal"]
+    assert [150.0, 90.0] == found["route"]["way"][-1]
+    assert 3 == len(found["route"]["cells"])
+    assert [] == found["findings"]
+    assert [10.0, 10.0, 190.0, 110.0] == found["bounds"]
+
+
+def test_a_room_without_a_door_is_found_and_the_proposed_cut_mends_it(client: TestClient) -> None:
+    found = client.post("/api/understand", content=CLOSED, headers=SVG).json()
+    (closed,) = [one for one in found["findings"] if one["severity"] == "warning"]
+    (x, y1), (_, y2) = closed["mend"]["segment"]
+    low, high = sorted((y1, y2))
+
+    mended = CLOSED.replace("M130 10 V110", f"M130 10 V{low} M130 {high} V110")
+
+    assert 130.0 == pytest.approx(x, abs=2.0)
+    again = client.post("/api/understand", content=mended, headers=SVG).json()
+    assert [] == [one for one in again["findings"] if one["severity"] == "warning"]
+    assert 2 == len(again["gateways"])
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<svg/>",
+        "nonsense",
+        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0 L9 9' stroke='red'/></svg>",
+    ],
+)
+def test_a_drawing_that_shows_nothing_is_no_error_but_a_finding(client: TestClient, content: str) -> None:
+    answer = client.post("/api/understand", content=content, headers=SVG)
+
+    assert 200 == answer.status_code
+    assert [] == answer.json()["cells"]
+    assert ["error"] == [one["severity"] for one in answer.json()["findings"]]
+    assert "pilotage-" not in answer.text  # the name of a temporary file
+
+
+def test_a_drawing_must_say_what_it_is(client: TestClient) -> None:
+    assert 415 == client.post("/api/understand", content=FLAT).status_code
+    assert 400 == client.post("/api/understand", headers=SVG).status_code
+
+
+def test_an_upload_becomes_a_drawing_under_a_free_name_and_is_not_stored(
+    client: TestClient, folder: Path
+) -> None:
+    (folder / "flat.svg").touch()
+    found = client.post("/api/uploads?name=flat.svg", content=FLAT).json()
+
+    assert "flat-2.svg" == found["name"]
+    assert {"kitchen", "office", "hall", "store"} == {label["text"] for label in found["labels"]}
+    again = client.post("/api/understand", content=found["svg"], headers=SVG).json()
+    assert 4 == len(again["cells"])
+    assert [30.0, 30.0] == pytest.approx(again["goal"])
+    assert ["flat.svg"] == [path.name for path in folder.iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "status"),
+    [
+        ("tool.exe", b"MZ", 415),
+        ("", b"x", 415),
+        ("photo.png", b"\x89PNG\r\n\x1a\n" + b"\0" * 100, 422),
+        ("plan.svg", b"<!DOCTYPE x [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><svg>&a;</svg>", 422),
+        ("bomb.svg", b"\x1f\x8b" + b"\0" * 50, 422),
+    ],
+)
+def test_a_hostile_upload_is_one_sentence(client: TestClient, name: str, content: bytes, status: int) -> None:
+    answer = client.post(f"/api/uploads?name={name}", content=content)
+
+    assert status == answer.status_code
+    assert "\n" not in answer.json()["error"]
+    assert "root:" not in answer.text
+
+
+def test_an_upload_is_bounded(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(file_routes, "LARGEST_UPLOAD", 1 << 20)
+
+    assert 413 == client.post("/api/uploads?name=a.png", content=b"\0" * (2 << 20)).status_code
+
+
+def test_a_drawing_that_takes_too_long_is_stopped_and_the_next_is_answered(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(file_routes, "UNDERSTAND_WITHIN", 0.05)
+    began = time.monotonic()
+    slow = client.post("/api/understand", content=FLAT.replace("</svg>", CIRCLES + "</svg>"), headers=SVG)
+    monkeypatch.undo()
+
+    assert 504 == slow.status_code
+    assert time.monotonic() - began < 30.0
+    assert 200 == client.post("/api/understand", content=FLAT, headers=SVG).status_code
+    assert work.understand.__doc__
+
+
+CIRCLES = "".join(f'<circle cx="{x}" cy="{y}" r="3"/>' for x in range(15, 190, 8) for y in range(15, 110, 8))
+
+
+def test_examples_and_worlds_are_listed_and_can_be_read(client: TestClient, folder: Path) -> None:
+    (folder / "building.yaml").write_text("image: x.pgm")
+    names = [one["name"] for one in client.get("/api/examples").json()["examples"]]
+    worlds = {one["id"] for one in client.get("/api/worlds").json()["worlds"]}
+
+    assert 6 == len(names)
+    assert all("<svg" in client.get(f"/api/examples/{name}").text for name in names)
+    assert {"packed:office", "packed:home", "packed:museum", "file:building.yaml"} == worlds
+    assert 404 == client.get("/api/examples/none").status_code
+
+
+def test_every_route_is_in_the_openapi_document(client: TestClient) -> None:
+    documented = client.get("/api/openapi.json").json()["paths"]
+    served = {route.path.replace(":path", "") for route in client.app.routes}  # type: ignore[attr-defined]
+
+    assert served - {"/", "", "/api/live", "/api/openapi.json"} == set(documented)

@@ -1,0 +1,49 @@
+import pytest
+from starlette.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from web_table import LIVE, TOKEN
+
+
+def test_nobody_gets_in_without_the_token(stranger: TestClient) -> None:
+    for path in ("/", "/api/drawings", "/api/openapi.json", "/index.html"):
+        assert 401 == stranger.get(path).status_code
+    assert 401 == stranger.get("/?token=guess").status_code
+    assert 401 == stranger.get("/api/drawings", headers={"Authorization": "Bearer guess"}).status_code
+
+
+def test_the_printed_address_becomes_a_cookie_and_leaves_the_address_bar(stranger: TestClient) -> None:
+    welcome = stranger.get(f"/?token={TOKEN}")
+
+    assert (303, "/") == (welcome.status_code, welcome.headers["location"])
+    assert "HttpOnly" in welcome.headers["set-cookie"]
+    assert "samesite=strict" in welcome.headers["set-cookie"].lower()
+    assert 200 == stranger.get("/").status_code
+
+
+def test_another_host_is_a_rebound_address(client: TestClient) -> None:
+    for host in ("evil.example", "evil.example:8765", "127.0.0.1:80", ""):
+        assert 403 == client.get("/api/drawings", headers={"Host": host}).status_code
+
+
+def test_a_page_from_elsewhere_is_refused(client: TestClient) -> None:
+    for origin in ("http://evil.example", "null", "http://127.0.0.1:9999"):
+        assert 403 == client.get("/api/drawings", headers={"Origin": origin}).status_code
+    assert 200 == client.get("/api/drawings", headers={"Origin": "http://127.0.0.1:8765"}).status_code
+
+
+@pytest.mark.parametrize(
+    "headers", [{}, {"Authorization": f"Bearer {TOKEN}", "Origin": "http://evil.example"}]
+)
+def test_a_websocket_needs_token_and_origin_too(stranger: TestClient, headers: dict[str, str]) -> None:
+    with pytest.raises(WebSocketDisconnect), stranger.websocket_connect(LIVE, headers=headers):
+        pass
+
+
+def test_the_page_may_load_nothing_from_elsewhere(client: TestClient) -> None:
+    policy = client.get("/").headers["content-security-policy"]
+
+    assert "default-src 'none'" in policy
+    assert "script-src 'self'" in policy
+    assert "http" not in policy
+    assert "nosniff" == client.get("/assets/page.js").headers["x-content-type-options"]

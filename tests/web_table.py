@@ -1,0 +1,58 @@
+"""What tests of the drawing table share."""
+
+import json
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from starlette.testclient import WebSocketTestSession
+
+TOKEN = "a-token-that-nobody-guesses"  # noqa: S105  # of servers that live for a test
+LIVE = "ws://127.0.0.1:8765/api/live"
+
+FLAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="none" stroke="black">
+<path d="M10 10 H190 V110 H10 Z M10 60 H40 M55 60 H130 M145 60 H190"/>
+<path d="M100 10 V28 M100 43 V80 M100 95 V110"/>
+<text x="50" y="35">kitchen</text><text x="150" y="35">office</text>
+<text x="50" y="90">hall</text><text x="150" y="90">store</text>
+<circle class="goal" cx="30" cy="30" r="2"/></svg>
+"""
+"""Four rooms with doors."""
+
+CONTENT = {"media": "image/svg+xml", "text": FLAT}
+
+CLOSED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="none" stroke="black">
+<path d="M10 10 H190 V110 H10 Z M70 10 V40 M70 60 V110 M130 10 V110"/>
+<text x="30" y="60">hall</text><text x="160" y="60">cell</text></svg>
+"""
+"""Three rooms, one of them without a door."""
+
+
+class Talk:
+    """A websocket to the server, whose messages can be waited for by kind; those of other kinds are kept."""
+
+    def __init__(self, websocket: WebSocketTestSession) -> None:
+        self._websocket = websocket
+        self._kept: dict[str, list[dict[str, Any]]] = {}
+
+    def say(self, kind: str, **fields: object) -> None:
+        """Send a message."""
+        self._websocket.send_text(json.dumps({"v": 1, "type": kind, **fields}))
+
+    def hear(self, kind: str) -> dict[str, Any]:
+        """Return the next message of a kind; a drive that ends for good meanwhile fails the test."""
+        while not self._kept.get(kind):
+            message = json.loads(self._websocket.receive_text())
+            self._kept.setdefault(message["type"], []).append(message)
+            assert kind == message["type"] or not message.get("fatal"), message["text"]
+        return self._kept[kind].pop(0)
+
+    def hear_until(self, kind: str, is_right: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """Return the next message of a kind for which something holds."""
+        return next(message for message in iter(partial(self.hear, kind), None) if is_right(message))
+
+    def start(self, **fields: object) -> dict[str, Any]:
+        """Start a drive through the flat, made real, and return what it is."""
+        real = {"severity": 0.4, "seed": 3}
+        self.say("start", **{"content": CONTENT, "goal": "store", "speed": 20, "made_real": real, **fields})
+        return self.hear("session")
