@@ -94,26 +94,26 @@ def measure(arguments: argparse.Namespace) -> Figures:
         for building in arguments.buildings
         for person in persons
     ]
-    followed = list(follow_all(tasks, arguments.jobs, reuse=False))
+    stream = follow_all(tasks, arguments.jobs, reuse=False)
     rows: Figures = {}
     print(f"{'severity':>8s} {'building':13s}{'room at end':>12s}{'last 10 m':>11s}{'sure+wrong':>12s}")
     for severity in arguments.severities:
-        rungs = {rung_name(severity, person) for person in persons}
-        row = {
-            building: summarize(
-                [one for one in followed if one.task.building == building and one.task.hand in rungs]
-            )
-            for building in arguments.buildings
-        }
+        row: Figures = {}
+        for building in arguments.buildings:
+            row[building] = summarize([next(stream) for _ in persons])
+            print(line(severity, building, row[building]), flush=True)
         row["mean"] = mean_of(list(row.values()))
+        print(line(severity, "mean", row["mean"]), flush=True)
         rows[f"{severity:g}"] = row
-        for building, one in row.items():
-            print(
-                f"{severity:8g} {building:13s}{one['room_end']:12.2f}{one['room_last10']:11.2f}"
-                f"{one['confident_wrong']:12.3f}",
-                flush=True,
-            )
     return rows
+
+
+def line(severity: float, building: str, row: Figures) -> str:
+    """Format the figures of a building at a severity, or of the mean."""
+    return (
+        f"{severity:8g} {building:13s}{row['room_end']:12.2f}{row['room_last10']:11.2f}"
+        f"{row['confident_wrong']:12.3f}"
+    )
 
 
 def summarize(followed: Sequence[Followed]) -> Figures:
