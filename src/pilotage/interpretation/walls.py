@@ -45,6 +45,7 @@ def find_walls(
     sheet: Sheet,
     named: Mapping[int, Role],
     doors: Sequence[Door],
+    *,
     ground: Color,
     diagonal: float,
 ) -> Walls:
