@@ -18,27 +18,10 @@ GLYPH_WIDTH = 0.5
 ALIKE = 1.35
 """Lines of one name differ in height by no more than this factor."""
 
-UNITS = frozenset(
-    (
-        "mm",
-        "cm",
-        "m",
-        "ft",
-        "feet",
-        "in",
-        "inch",
-        "inches",
-        "sq",
-        "sqm",
-        "sqft",
-        "sf",
-        "qm",
-        "mq",
-        "m²",
-        "ft²",
-    )
-    + ("㎡", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface")
-)
+UNITS = frozenset({
+    "mm", "cm", "m", "ft", "feet", "in", "inch", "inches", "sq", "sqm", "sqft", "sf", "qm", "mq", "m²", "ft²",
+    "㎡", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface",
+})  # fmt: skip
 """Words of areas and lengths; with numbers and nothing else they are no name."""
 
 SIGNS = (
