@@ -40,8 +40,8 @@ def find_closed_gaps(division: Division) -> Iterator[Finding]:
         yield Finding(
             "closed-gap",
             Severity.WARNING if is_needed else Severity.NOTE,
-            f"a gap of {length_in_words(width)} between {rooms[0]} and {rooms[1]} counts as closed: it is narrow",
-            f"if it is a door, widen it to {length_in_words(usual)}",
+            f"a gap of {length_in_words(width)} between {rooms[0]} and {rooms[1]} counts as closed",
+            f"it is so narrow: if it is a door, widen it to {length_in_words(usual)}",
             (x, y),
             rooms,
             cut(gap, usual),
