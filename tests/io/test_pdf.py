@@ -6,6 +6,7 @@ from PIL import Image, ImageDraw
 
 from pilotage.errors import FileError
 from pilotage.io.pdf import PicturePageError, page_picture, read_pdf, read_picture_page
+from pilotage.io.picture import sheet_of
 from shared_data import needs_plans, plan
 
 FONT = "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"
@@ -133,7 +134,7 @@ def test_a_page_that_is_a_picture_is_traced_in_points(tmp_path):
     with pytest.raises(PicturePageError):
         read_pdf(tmp_path / "scan.pdf")
     assert page_picture(tmp_path / "scan.pdf").shape == (1600, 2000, 3)
-    sheet = read_picture_page(tmp_path / "scan.pdf", side=500)
+    sheet = read_picture_page(tmp_path / "scan.pdf", None, sheet_of, side=500)
     points = np.vstack([outline.vertices for mark in sheet.marks for outline in mark.outlines])
     width, height = 720.0, 576.0
     assert sheet.page == pytest.approx((0, 0, width, height))

@@ -11,7 +11,7 @@ from pilotage.errors import FileError
 from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
 from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
 from pilotage.io.kinds import Kind, recognize
-from pilotage.io.raster import PictureKind, read_map_server, read_sheet_or_plan
+from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet_or_plan, sheet_or_plan
 from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
 
@@ -81,11 +81,27 @@ def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpr
     if kind is Kind.PICTURE:
         seen = read_sheet_or_plan(file, KINDS[hints.shading])
         return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
+    if kind is Kind.PDF:
+        return read_pdf_page(file, page, hints)
     if hints.shading is not Shading.RECOGNIZED:
         raise FileError(f"only pictures have a shading, {hints.shading.value} is asked for", file)
     if kind is Kind.MAP_SERVER:
         return read_map_server(file), None
     return understood(read_sheet(file, page), file, hints)
+
+
+def read_pdf_page(
+    file: Path, page: str | None, hints: DrawingHints
+) -> tuple[SchematicMap, Interpretation | None]:
+    """Read a page of a PDF file; one that shows a picture is read as such."""
+    from pilotage.io.pdf import PicturePageError, read_picture_page
+
+    try:
+        return understood(read_sheet(file, page), file, hints)
+    except PicturePageError:
+        kind = KINDS[hints.shading]
+        seen = read_picture_page(file, page, lambda colors: sheet_or_plan(Picture(colors), kind, file))
+    return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
 
 
 def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation]:

@@ -55,14 +55,10 @@ def read_dxf(path: Path) -> Sheet:
 
 
 def read_pdf(path: Path, page: str | None) -> Sheet:
-    """Read a page of a PDF file, as a picture if it shows one."""
-    from pilotage.io.pdf import PicturePageError, read_picture_page
+    """Read a page of a PDF file; one that shows a picture raises PicturePageError."""
     from pilotage.io.pdf import read_pdf as read
 
-    try:
-        return read(path, page)
-    except PicturePageError:
-        return read_picture_page(path, page)
+    return read(path, page)
 
 
 def read_excalidraw(path: Path) -> Sheet:
