@@ -88,7 +88,7 @@ export function App() {
     editor.addFiles(Object.values(shown.files));
     editor.updateScene({ elements: restoreElements(shown.elements, null), captureUpdate: CaptureUpdateAction.NEVER });
     editor.history.clear();
-    if (shown.elements.length) editor.scrollToContent(undefined, { fitToViewport: true, viewportZoomFactor: 0.8 });
+    if (shown.elements.length) editor.scrollToContent(undefined, { fitToContent: true });
     setEnds([]);
     setHovered(undefined);
     setGoalName("");
