@@ -199,6 +199,7 @@ export function App() {
     const goal = goalName || goalOf(elements());
     setFate("none");
     setTool("none");
+    if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
     begin({
       type: "start", content: { media: "image/svg+xml", text: plain() }, ...(goal ? { goal } : {}),
       ...(start && choice.tellStart ? { start } : {}), ...orderOf(choice),
