@@ -23,7 +23,7 @@ from benchmarks.lib.results import Figures
 from pilotage.drives import navigate
 from pilotage.errors import PilotageError
 from pilotage.evaluation.episodes import score
-from pilotage.geometry import Array, Pose2
+from pilotage.geometry import Pose2
 from pilotage.navigation import Outcome
 
 EPISODES = 4
@@ -73,15 +73,15 @@ def reaches(number: str, seed: int) -> bool:
     rng = np.random.default_rng(seed)
     on_sketch, in_world = regions_of(number)
     start = places(1, rng)
+    x, y = start[0].tolist()
     others = sorted(set(on_sketch.names) - set(in_world.names_at(start)))
     goal_name = others[int(rng.integers(len(others)))]
-    goal = centre_of(number, goal_name)
     try:
         driven = navigate(
             sketch_of(SKETCHED, number).atlas,
             world(),
-            (float(goal[0]), float(goal[1])),
-            world_start=Pose2(*start[0].tolist(), float(rng.uniform(-np.pi, np.pi))),
+            centre_of(number, goal_name),
+            world_start=Pose2(x, y, float(rng.uniform(-np.pi, np.pi))),
             seed=seed,
         )
     except PilotageError as error:  # the sketch leads nowhere from there
@@ -91,9 +91,11 @@ def reaches(number: str, seed: int) -> bool:
     return driven.outcome is Outcome.REACHED and ended == goal_name
 
 
-def centre_of(number: str, name: str) -> Array:
+def centre_of(number: str, name: str) -> tuple[float, float]:
     """Return the first centre of a region on a sketch, in pixels of its file."""
-    return read_matches(FOLDER / f"gt_{number}_model_simple.dat")[0][name][0]
+    centres, _ = read_matches(FOLDER / f"gt_{number}_model_simple.dat")
+    x, y = centres[name][0].tolist()
+    return x, y
 
 
 def mean_of(rows: Sequence[Figures]) -> Figures:

