@@ -142,8 +142,8 @@ def test_a_drawing_that_encloses_nothing_is_refused_in_one_line_or_answered(pilo
     ("content", "rule"),
     [
         ("", "empty"),
-        ("stamp,x,y\n1,2,3\n", "no CARMEN log"),
-        ("\x89PNG\r\n", "no CARMEN log"),
+        ("stamp,x,y\n1,2,3\n", "no laser log"),
+        ("\x89PNG\r\n", "no laser log"),
         ("FLASER 2 1.0 x 0 0 0 0 0 0 1 host 1\n", "no scan that can be read"),
     ],
 )
