@@ -21,7 +21,10 @@ LARGEST = 2.5e6
 
 @pytest.mark.skipif(not FRONTEND.is_dir(), reason="the sources of the page are not here")
 def test_the_packed_page_is_built_from_the_sources() -> None:
-    names = [*SINGLE, *(str(path.relative_to(FRONTEND)) for path in (FRONTEND / "src").rglob("*") if path.is_file())]
+    names = [
+        *SINGLE,
+        *(str(path.relative_to(FRONTEND)) for path in (FRONTEND / "src").rglob("*") if path.is_file()),
+    ]
     digest = hashlib.sha256()
     for name in sorted(names):
         digest.update(f"{name}\0".encode())

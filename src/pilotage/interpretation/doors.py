@@ -26,7 +26,7 @@ LEAF = (0.6, 1.25)
 """A leaf is as long as the radius of its arc, within these shares."""
 
 SLACK = 0.1
-"""How far a leaf may stray from its arc's spoke, as a share of the radius: people draw it, and it has a thickness."""
+"""How far a leaf may stray from its arc's spoke, as a share of the radius: it has a thickness."""
 
 BESIDE = 0.25
 """Where a wall is looked for beyond hinge and latch, as a share of the radius."""
@@ -38,7 +38,7 @@ THROUGH = 0.5
 """How far a wall is cut to either side of an opening, as a share of its width: no wall is thicker."""
 
 TWINS = 0.2
-"""Arcs whose centers and radii differ by less than this share of the radius draw one door: both sides of a line."""
+"""Arcs whose centers and radii differ by less than this share of the radius draw one door."""
 
 
 @dataclass(frozen=True, eq=False)

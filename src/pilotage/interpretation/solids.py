@@ -17,7 +17,7 @@ SLENDER = 4.0
 """A wall is at least so many times as long as it is thick."""
 
 SECOND = 0.3
-"""A second color or thickness is that of walls, too, if so much wall has it, as a share of the first one's."""
+"""A second color or thickness is of walls, too, if so much wall has it, as a share of the first one's."""
 
 CONTRAST = 0.25
 """Walls differ from the ground by at least this much in lightness; floors are paler."""
@@ -26,10 +26,10 @@ DOOR_SHARE = 0.6
 """No wall is thicker than this share of a door's width."""
 
 PAIR = (0.0025, 0.03)
-"""Without a door that is drawn, lines so far apart may be a wall's faces, as shares of the drawing's diagonal."""
+"""Lines so far apart may be a wall's faces where no door is drawn, as shares of the drawing's diagonal."""
 
 PAIRED = 0.5
-"""They are if so much of all that is drawn straight has a partner at one distance, as a share of its length."""
+"""They are if so much of all that is straight has a partner at one distance, as a share of its length."""
 
 PARALLEL = np.radians(2.0)
 """Faces of a wall are parallel up to this."""
@@ -125,7 +125,7 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
 
 
 def filled_between(lines: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
-    """Fill what lies between lines and solids no farther apart than a wall is thick (morphological closing)."""
+    """Fill what lies between lines and solids no farther apart than a wall is thick, by closing."""
     hair = HAIR * thickness
     pieces = shapely.linestrings(straight(lines))
     bars = shapely.buffer(pieces, thickness / 2.0, cap_style="square")

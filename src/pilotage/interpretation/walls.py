@@ -13,6 +13,7 @@ from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
     are_walls,
     dark_areas,
+    enclosed,
     filled_between,
     greatest_thickness,
     lightness,
@@ -25,6 +26,18 @@ GAP = 1.3
 
 USUAL_GAP = 0.08
 """The same where no door is drawn, as a share of the drawing's diagonal."""
+
+USUAL_DOOR = 0.03
+"""Width of a door where none is drawn, as a share of the drawing's diagonal."""
+
+NEARLY_ALL = 0.9
+"""The lines of one style are the walls if they enclose this share of what all lines enclose."""
+
+MOST_STYLES = 30
+"""A drawing with more styles than this tells nothing by them."""
+
+EDGE = 0.0005
+"""Widths of lines that differ by less than this share of the drawing's diagonal look alike."""
 
 PALE = 0.4
 """A fill that differs less than this from the ground in lightness is a floor if it has no line around it."""
@@ -45,6 +58,7 @@ def find_walls(
     sheet: Sheet,
     named: Mapping[int, Role],
     doors: Sequence[Door],
+    *,
     ground: Color,
     diagonal: float,
 ) -> Walls:
@@ -76,7 +90,35 @@ def find_walls(
         walls = without_crumbs(walls, faced)
         if are_walls(walls, lines, gap):
             return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), faced)
+    main = lines_of_one_style(seen, sheet, gap, diagonal)
+    if main is not None:
+        others = shapely.difference(lines, shapely.buffer(main, EDGE * diagonal))
+        parting = find_partitions(
+            others, shapely.buffer(main, EDGE * diagonal), doors, width or USUAL_DOOR * diagonal
+        )
+        return Walls(solid, shapely.union(main, parting), frozenset(colors), None)
     return Walls(solid, None, frozenset(colors), None)
+
+
+def lines_of_one_style(
+    seen: Sequence[Seen], sheet: Sheet, gap: float, diagonal: float
+) -> shapely.Geometry | None:
+    """Find the lines of one color and width that enclose nearly all that is enclosed.
+
+    None if there is no such style, or no other.
+    """
+    styles: dict[tuple[Color, float, bool], list[shapely.Geometry]] = {}
+    for mark in seen:
+        pen = sheet.marks[mark.number].pen
+        if pen is not None and not mark.line.is_empty:
+            color = (round(pen.color[0], 1), round(pen.color[1], 1), round(pen.color[2], 1))
+            styles.setdefault((color, round(pen.width / (EDGE * diagonal)), pen.dashed), []).append(mark.line)
+    if not 1 < len(styles) <= MOST_STYLES:
+        return None
+    drawn = [shapely.union_all(lines) for lines in styles.values()]
+    longest = max(drawn, key=lambda lines: float(shapely.length(lines)))
+    everything = enclosed(shapely.union_all(drawn), gap)
+    return longest if everything > 0.0 and enclosed(longest, gap) >= NEARLY_ALL * everything else None
 
 
 def touching(filled: shapely.Geometry, solid: shapely.Geometry) -> shapely.Geometry:
