@@ -76,16 +76,21 @@ class DdsRobot:
 
 
 def run_together(
-    robot: DdsRobot, live: LiveRobot, seconds: float, until: Callable[[], bool] = lambda: False
+    robot: DdsRobot,
+    live: LiveRobot,
+    seconds: float,
+    until: Callable[[], bool] = lambda: False,
+    spent: Callable[[], float] = lambda: 0.0,
 ) -> list[float]:
     """Step the robot, and let the live side answer, as fast as both can; return the times of answers [s].
 
-    The clock of the live side must be that of the simulation.
+    Counted is the time that was not `spent` otherwise, of scans that were answered by a command. The clock of
+    the live side must be that of the simulation.
     """
     latencies = []
     end = robot.simulator.stamp + seconds
     while robot.simulator.stamp < end and not until():
-        began = time.perf_counter()
+        began, otherwise = time.perf_counter(), spent()
         heard = live.watchdog.heard
         robot.tell()
         while live.watchdog.heard == heard and time.perf_counter() - began < 0.2:
@@ -95,6 +100,7 @@ def run_together(
         while robot.commanded == before and time.perf_counter() < deadline:
             robot.node.wait(0.002)
             robot.hear()
-        latencies.append(time.perf_counter() - began)
+        if robot.commanded != before:
+            latencies.append(time.perf_counter() - began - (spent() - otherwise))
         robot.step()
     return latencies

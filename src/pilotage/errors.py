@@ -18,6 +18,10 @@ class FileError(PilotageError):
         self.rule = rule
         self.path = Path(path)
 
+    def __reduce__(self) -> tuple[type["FileError"], tuple[str, Path]]:
+        """Let the error pass from one process to another."""
+        return type(self), (self.rule, self.path)
+
 
 class SettingsError(PilotageError, ValueError):
     """A setting is unknown or invalid."""

@@ -73,6 +73,16 @@ def test_without_leave_to_drive_nothing_is_sent_and_the_estimate_is(atlas):
     assert 0.0 == pair.simulator.twist.linear == pair.simulator.twist.angular
 
 
+def test_without_a_goal_others_may_drive(atlas):
+    pair = Pair(atlas, Topics(drives=True))
+    commands = Node(pair.domain).subscribe("cmd_vel", TWIST_TYPE, Quality(10))
+    time.sleep(0.5)
+    pair.run(0.5)
+
+    assert pair.live.told is not None
+    assert [] == commands.take()
+
+
 def test_one_who_joins_late_gets_the_map(atlas):
     pair = Pair(atlas, Topics(localizes_only=True))
     pair.run(0.5)

@@ -16,6 +16,7 @@ from pilotage.cli.ros2 import ros2
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
 from pilotage.cli.table import table
+from pilotage.cli.which import which
 
 app = typer.Typer(
     name="pilotage",
@@ -56,4 +57,5 @@ app.command()(record)
 app.command()(ros2)
 app.command()(settings)
 app.command()(simplify)
+app.command()(which)
 app.command()(table)

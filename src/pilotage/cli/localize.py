@@ -17,7 +17,6 @@ from pilotage.cli.run import (
     open_localizer,
     read_stretch,
     run,
-    summary,
 )
 from pilotage.cli.terminal import check_outputs, keeping, say
 
@@ -79,8 +78,8 @@ def localize(
     localizer = open_localizer(sketch, settings, seed, known, scale)
     tell_worst(drawing, findings_of(sketch, settings))
     with estimates_sink(output, sketch) as write:
-        estimates = run(localizer, readings, write)
+        trip = run(localizer, readings, write)
     if figure is not None:
         with keeping(output):
-            draw(sketch, localizer, estimates, figure, title=f"{log.name} in {drawing.name}")
-    say(summary(estimates))
+            draw(sketch, localizer, trip.estimates, figure, title=f"{log.name} in {drawing.name}")
+    say(trip.summary)

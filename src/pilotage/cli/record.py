@@ -9,12 +9,13 @@ import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.places import parse_pose
-from pilotage.cli.run import OdometryTopic, ScanTopic, open_localizer, read_stretch, run, summary
+from pilotage.cli.run import OdometryTopic, ScanTopic, open_localizer, read_stretch, run
 from pilotage.cli.terminal import busy, check_outputs, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
     from pilotage.io.bags.belief import Belief, MapFrame
+    from pilotage.localization import Estimate
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.perception import Reading
 
@@ -76,11 +77,12 @@ def record(
         readings = read_stretch(log, 0, None, scan_topic, odometry_topic)
         known = None if start is None else parse_pose(start, "--start")
         localizer = open_localizer(sketch, settings, seed, known, scale)
-        estimates = run(localizer, readings, lambda _estimate: None)
+        estimates: list[Estimate] = []
+        trip = run(localizer, readings, estimates.append)
         frame = MapFrame(sketch, scale_of(sketch, scale, [one.scale for one in estimates]))
         beliefs = (Belief.of_estimate(estimate, frame) for estimate in estimates)
         write(output, frame, localizer.atlas.cell_graph, zip(beliefs, readings, strict=True))
-        say(summary(estimates))
+        say(trip.summary)
     say(f"written to {output}; the frame map has {frame.scale:.6g} drawing units per metre")
 
 

@@ -10,6 +10,7 @@ import typer
 
 from pilotage.cli.exits import signals_held
 from pilotage.cli.terminal import busy, say, track
+from pilotage.cli.trip import Trip
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
@@ -86,16 +87,15 @@ def estimates_sink(output: Path | None, sketch: "SchematicMap") -> "Iterator[Cal
         yield write
 
 
-def run(
-    localizer: "Localizer", readings: "Sequence[Reading]", write: "Callable[[Estimate], None]"
-) -> "list[Estimate]":
+def run(localizer: "Localizer", readings: "Sequence[Reading]", write: "Callable[[Estimate], None]") -> Trip:
     """Localize scan by scan, each estimate written as it comes."""
-    estimates = []
+    trip = Trip()
     for reading in track(readings, "Localizing"):
         with signals_held():
-            estimates.append(localizer.update(reading.scan, reading.odometry))
-            write(estimates[-1])
-    return estimates
+            estimate = localizer.update(reading.scan, reading.odometry)
+            write(estimate)
+            trip.add(estimate)
+    return trip
 
 
 def draw(
@@ -115,21 +115,3 @@ def draw(
     base_from_odom = matcher.odom_from_base.inverse()
     local_map = [shape.polyline.moved(base_from_odom) for shape in matcher.local_map.shapes]
     save(path_figure(sketch, estimates, local_map=local_map, truth=truth, title=title), path)
-
-
-def summary(estimates: "Sequence[Estimate]") -> str:
-    """Say in one sentence how it went."""
-    from pilotage.localization import Status
-
-    located = [k for k, estimate in enumerate(estimates) if estimate.status is Status.LOCATED]
-    count = f"{len(estimates)} scan{'s' if len(estimates) != 1 else ''}"
-    final = estimates[-1]
-    misfit = f"this drawing does not seem to be of this building (fit {final.fit:.2f})"
-    if not located:
-        return f"{count}: lost in all of them{f'; {misfit}' if final.status is Status.MISMATCH else ''}."
-    end = {
-        Status.LOCATED: f"in {final.place} with probability {final.probability:.2f}",
-        Status.LOST: "lost",
-        Status.MISMATCH: misfit,
-    }[final.status]
-    return f"{count}: located in {len(located)}, the first time at scan {located[0]}; at the end {end}."

@@ -5,9 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pilotage.errors import FileError
-from pilotage.io.carmen import BrokenLine, read_carmen
+from pilotage.io.carmen import KNOWN_MESSAGES, BrokenLine, read_carmen
 from pilotage.io.files import read_bytes
 from pilotage.perception import Odometry, Reading
+
+SNIFFED = 1 << 20
+"""Bytes of a text in which a log shows itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +42,17 @@ class Log:
             lines = "1 broken line was" if count == 1 else f"{count} broken lines were"
             told.append(f"{lines} passed over, the first is {self.broken_lines[0]}")
         return "; ".join(told)
+
+
+def is_log(path: Path | str) -> bool:
+    """Tell whether a file or folder is a laser log; raise FileError if it cannot be read."""
+    from pilotage.io.bags import is_bag
+    from pilotage.io.breezy import is_breezy
+
+    if is_bag(Path(path)):
+        return True
+    lines = read_bytes(path)[:SNIFFED].decode("ascii", errors="replace").splitlines()
+    return any(is_breezy(line) or line.split(" ", 1)[0] in KNOWN_MESSAGES for line in lines)
 
 
 def open_log(path: Path | str, *, scan_topic: str | None = None, odometry_topic: str | None = None) -> Log:

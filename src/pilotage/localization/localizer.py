@@ -101,6 +101,7 @@ class Localizer:
         self.tracks = self._first_tracks(start)
         self._motion: Pose2 | None = None  # since the last keyframe; None before the first scan
         self._window: tuple[Keyframe, ...] = ()
+        self.log_evidence = 0.0  # of this drawing over that of any building, since the first scan
         self._log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of each keyframe
         self._fits: tuple[float, ...] = ()
         self._searched = 0.0  # [m] of travel at the last search
@@ -146,6 +147,7 @@ class Localizer:
         log_ratio = novelty * self._model.log_ratio(particles.states, scan)
         particles = Particles(particles.states, particles.log_weights + log_ratio)
         particles, log_null, log_total = normalized(particles, log_null)
+        self.log_evidence += log_total
         self._log_totals = self._within_window((*self._log_totals, (self._window[-1].travel, log_total)))
         share = 0.0 if is_first else self._search_effort()
         if share > 0.0:

@@ -136,7 +136,7 @@ class LiveRobot:
         took = self._clock() - came
         if self.watchdog.trouble or took > NO_SCAN:
             self._stand(self.watchdog.trouble or f"a step took {took:.1f} s", stamp)
-        elif not self._topics.localizes_only:
+        elif self.session.goal is not None:
             self._send_command(told.command, stamp)
         self._publish(told)
         if told.step is not None and told.step.outcome is not None:
@@ -168,7 +168,7 @@ class LiveRobot:
     def _send_command(self, command: Twist, stamp: float) -> None:
         """Send a command, if we may drive."""
         self.command = command
-        if "command" not in self._out or (self.session.goal is None and command != STILL):
+        if "command" not in self._out:
             return
         message = outgoing.twist_message(command)
         if self._topics.stamped:
@@ -185,7 +185,9 @@ class LiveRobot:
             out["map"].publish(outgoing.occupancy_grid(stamp, frame, graph))
             out["drawing"].publish(outgoing.drawing(stamp, frame))
             out["cells"].publish(outgoing.cells(stamp, frame, graph))
-        out["tf"].publish(outgoing.transform(stamp, outgoing.MAP, outgoing.ODOM, told.map_from_odom))
+        out["tf"].publish(
+            outgoing.transform(stamp, outgoing.MAP, self.sensing.odometry_frame, told.map_from_odom)
+        )
         out["amcl_pose"].publish(outgoing.pose_estimate(belief))
         out["hypotheses"].publish(outgoing.hypotheses(belief))
         out["diagnostics"].publish(outgoing.diagnostics(belief))

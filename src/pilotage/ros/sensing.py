@@ -34,6 +34,7 @@ class Sensing:
     def __init__(self) -> None:
         self._edges: dict[str, Transform] = {}
         self._base = ""
+        self.odometry_frame = ODOMETRY_FRAME  # as the robot names it
         self._has_topic = False  # whether a topic of odometry was heard: then /tf is not used for it
         self._odometry: deque[tuple[float, float, float, float]] = deque(maxlen=REMEMBERED)
 
@@ -49,6 +50,7 @@ class Sensing:
             self._odometry.clear()
         place, turn = message.pose.pose.position, message.pose.pose.orientation
         self._base = frame_name(message.child_frame_id) or DEFAULT_BASE
+        self.odometry_frame = frame_name(message.header.frame_id) or ODOMETRY_FRAME
         theta = heading(turn.x, turn.y, turn.z, turn.w)
         self._remember(seconds(message.header.stamp), place.x, place.y, theta)
 
@@ -57,7 +59,7 @@ class Sensing:
         for one in transforms_in(message):
             if one.parent.rpartition("/")[2] == ODOMETRY_FRAME:
                 if not self._has_topic:
-                    self._base = one.child
+                    self._base, self.odometry_frame = one.child, one.parent
                     self._remember(one.stamp, one.pose.x, one.pose.y, one.pose.theta)
             else:
                 self._edges[one.child] = one

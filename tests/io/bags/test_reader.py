@@ -1,6 +1,8 @@
 """A bag of any kind gives the readings that were recorded, or says in one line why it does not."""
 
 import math
+import os
+import threading
 
 import numpy as np
 import pytest
@@ -183,6 +185,17 @@ def estimates(log):
     sketch = open_map(worlds.OFFICE.careful)
     localizer = Localizer(sketch, LocalizerSettings(proposals=500))
     return [estimate_record(localizer.update(r.scan, r.odometry), sketch) for r in log]
+
+
+def test_a_text_log_comes_through_a_pipe(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    line = "FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 7.5 host 7.5\n"
+    writer = threading.Thread(target=pipe.write_text, args=(line * 2,))
+    writer.start()
+
+    assert 2 == len(open_log(pipe))
+    writer.join()
 
 
 @needs_bags

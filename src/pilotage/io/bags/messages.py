@@ -33,7 +33,12 @@ class Message:
 
 
 def suffix_by_content(path: Path) -> str | None:
-    """Return what the name of a bag's file should end in; None if the file is no bag."""
+    """Return what the name of a bag's file should end in; None if the file is no bag.
+
+    What is read of a pipe is gone, so that pipes are not looked at.
+    """
+    if not path.is_file():
+        return None
     try:
         with path.open("rb") as file:
             head = file.read(16)

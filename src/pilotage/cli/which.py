@@ -1,0 +1,112 @@
+"""`pilotage which`: which of these drawings is of the building that a log was made in."""
+
+import math
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pilotage.cli.terminal import say
+from pilotage.errors import FileError, PilotageError
+
+TRAVEL = 40.0
+"""[m] of a log that are looked at, unless it is told otherwise."""
+ATTEMPTS = 3
+"""How often a drawing is tried if the process that tries it is killed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Score:
+    """What one drawing tells about one log."""
+
+    drawing: Path
+    log_evidence: float  # over that of any building
+    place: str
+    probability: float
+
+
+def which(
+    files: Annotated[
+        list[Path], typer.Argument(metavar="MAPS... LOGS...", help="Drawings and laser logs, in any order.")
+    ],
+    *,
+    travel: Annotated[float, typer.Option(metavar="M", help="Metres of each log to look at.")] = TRAVEL,
+    jobs: Annotated[int, typer.Option(min=1, help="Processes to use.")] = 2,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+) -> None:
+    """Rank drawings by how well they explain a log.
+
+    Each log is localized on each drawing. A line a drawing, the best first: the logarithm of
+    its evidence over that of any building, the place where the robot would be at the end,
+    the probability of that, and the file.
+
+    **Example:** `pilotage which floors/*.svg run.mcap`
+    """
+    from pilotage.io.logs import is_log
+
+    if not travel > 0.0 or not math.isfinite(travel):
+        raise typer.BadParameter(f"it must be positive, got {travel}", param_hint="--travel")
+    logs = [path for path in files if is_log(path)]
+    drawings = [path for path in files if path not in logs]
+    if not (logs and drawings):
+        missing = "a log" if not logs else "a drawing"
+        raise FileError(f"drawings and logs are needed, {missing} is missing", files[0])
+    for log in logs:
+        scores = sorted(
+            scored(drawings, log, travel, seed, jobs), key=lambda one: (-one.log_evidence, one.drawing)
+        )
+        if not scores:
+            raise FileError("none of the drawings can be used", log)
+        for rank, one in enumerate(scores, start=1):
+            numbers = f"{rank:3d}  {one.log_evidence:+9.1f}  {one.probability:.2f}"
+            typer.echo(f"{log.name}  {numbers}  {one.place}  {one.drawing}")
+
+
+def scored(drawings: Sequence[Path], log: Path, travel: float, seed: int, jobs: int) -> Iterator[Score]:
+    """Try all drawings in processes, each as it is done; what a killed process had is tried again."""
+    waiting = list(drawings)
+    for _ in range(ATTEMPTS):
+        lost: list[Path] = []
+        with ProcessPoolExecutor(min(jobs, len(waiting))) as pool:
+            futures: dict[Future[Score], Path] = {
+                pool.submit(score, drawing, log, travel, seed): drawing for drawing in waiting
+            }
+            for done, future in enumerate(as_completed(futures), start=1):
+                try:
+                    one = future.result()
+                except BrokenProcessPool:
+                    lost.append(futures[future])
+                except PilotageError as error:
+                    say(f"pilotage: left out: {error}")
+                else:
+                    say(f"pilotage: {done} of {len(waiting)}: {one.drawing.name} {one.log_evidence:+.1f}")
+                    yield one
+        if not lost:
+            return
+        waiting = lost
+    say(f"pilotage: {len(waiting)} drawings were given up, their processes were killed")
+
+
+def score(drawing: Path, log: Path, travel: float, seed: int) -> Score:
+    """Localize along the first metres of a log, and sum up the evidence."""
+    from pilotage.io import open_log, open_map
+    from pilotage.localization import Localizer
+
+    try:
+        localizer = Localizer(open_map(drawing), seed=seed)
+    except ValueError as error:
+        raise FileError(str(error), drawing) from error
+    gone, last = 0.0, None
+    for reading in open_log(log):
+        localizer.update(reading.scan, reading.odometry)
+        here = localizer.scan_matcher.odom_from_base.position
+        gone += 0.0 if last is None else math.hypot(*(here - last))
+        last = here
+        if gone >= travel:
+            break
+    estimate = localizer.estimate
+    return Score(drawing, localizer.log_evidence, estimate.place, estimate.probability)
