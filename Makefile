@@ -3,13 +3,16 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo table check test fix reference bench clean
+.PHONY: demo table page check test fix reference bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/pilotage demo
 
 table: $(VENV)/ready-web  # the drawing table, in the browser
 	$(BIN)/pilotage table
+
+page:  # builds the page of the drawing table into the package; needs node 20 or newer
+	cd frontend && npm install --no-audit --no-fund && npm run build
 
 check: $(VENV)/ready-dev
 	$(BIN)/ruff format --check .

@@ -35,6 +35,8 @@ NAMES = (
     "segmentation",
     "cells",
     "plans",
+    "logs",
+    "ros",
     "mpeg7",
     "shape",
     "simulation",
@@ -42,7 +44,7 @@ NAMES = (
     "table",
     "worlds_from_logs",
 )
-WITHOUT_DATA = ("shape", "simulation", "soak", "table")
+WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak", "table")
 TOOLS = ("readme", "fetch")
 BESIDE = {
     "json",

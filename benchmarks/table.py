@@ -111,7 +111,7 @@ def making_ms() -> float:
 
     office = worlds.OFFICE
     stage = set_stage(Order("", Sent(".svg", office.quick.read_bytes()), office.world, goal="Ana"))
-    maker = FrameMaker(stage.navigator, stage.page, Cloud(stage.localizer), stage.truth)
+    maker = FrameMaker(stage.navigator, stage.page, Cloud(stage.localizer), stage.truth, shows_world=True)
     taken = []
     for _ in range(100):
         instant = stage.step()

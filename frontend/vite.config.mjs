@@ -1,7 +1,7 @@
 // Builds the page into the package. Parts of the editor that the page never uses are left out.
 import react from "@vitejs/plugin-react";
-import { cpSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { cpSync, existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { defineConfig } from "vite";
 import { hashOfSources } from "./hash-sources.mjs";
 
@@ -22,6 +22,25 @@ const withoutUnused = {
     id.includes("excalidraw/dist/prod") ? code.replaceAll("https://esm.sh/", "${location.origin}/assets/") : null,
 };
 
+// The licences of all that is packed ask to be packed too.
+const withLicences = {
+  name: "with-licences",
+  generateBundle(_, bundle) {
+    const modules = Object.values(bundle).flatMap((chunk) => Object.keys(chunk.modules ?? {}));
+    const folders = new Set(modules.map((id) => /^.*node_modules\/(@[^/]+\/)?[^/]+/.exec(id.replace(/^\0/, ""))?.[0]).filter(Boolean));
+    const source = [...folders].sort().map(licenceOf).join("\n\n");
+    this.emitFile({ type: "asset", fileName: "assets/licences.txt", source: `${source}\n\nExcalifont, Assistant: SIL Open Font License 1.1\n` });
+  },
+};
+
+function licenceOf(folder) {
+  const { name, version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+  const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+  const above = existsSync(join(dirname(folder), "LICENSE")) ? join(dirname(folder), "LICENSE") : null;
+  const text = file ? readFileSync(join(folder, file), "utf8").trim() : above ? readFileSync(above, "utf8").trim() : "";
+  return `${name} ${version}: ${license}\n\n${text}`.trim();
+}
+
 const withFontsAndHash = {
   name: "with-fonts-and-hash",
   closeBundle() {
@@ -34,7 +53,7 @@ export default defineConfig({
   root: here,
   base: "/",
   publicDir: false,
-  plugins: [withoutUnused, react(), withFontsAndHash],
+  plugins: [withoutUnused, react(), withLicences, withFontsAndHash],
   define: { "process.env.IS_PREACT": '"false"' },
   build: {
     outDir: target,

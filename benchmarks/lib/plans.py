@@ -132,7 +132,6 @@ class PlanScore:
     @property
     def figures(self) -> dict[str, Any]:
         """The figures of `--json`; None where nothing can be counted."""
-        claims = self.claimed or (0 if self.drawn else 1)
         return {
             "rooms": self.found / self.rooms,
             "rooms_strict": self.strictly / self.rooms,
@@ -140,7 +139,7 @@ class PlanScore:
             "connections_p": (self.hits / self.claimed if self.claimed else float(not self.drawn))
             * float(not self.error),
             "connections_r": (self.hits / self.drawn if self.drawn else 1.0) * float(not self.error),
-            "connections_f1": f1(self.hits, claims, self.drawn) * float(not self.error),
+            "connections_f1": f1(self.hits, self.claimed, self.drawn) * float(not self.error),
             "seconds": self.seconds,
             "mb": self.mb,
             **({"error": self.error} if self.error else {}),

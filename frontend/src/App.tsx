@@ -4,7 +4,7 @@ import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalid
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { ApiError, listDrawings, loadDrawing, loadExample } from "./api";
 import { Dialog, MeasureDialog } from "./Dialog";
-import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapAt, wallAt, type Gap } from "./doors";
+import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapsAt, wallAt, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView, type Fate } from "./DriveView";
@@ -146,13 +146,13 @@ export function App() {
   const scale = scaleOf(elements());
 
   /** Where the door tool would put a door, and the door it moves there. */
-  const doorOf = (from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap | null } | null => {
+  const doorOf = (from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap[] } | null => {
     const width = doorWidth(elements(), gaps, scale);
-    const moved = isClick ? null : gapAt(elements(), from, width, view.zoom);
-    if (moved) return { door: draggedDoor(moved, from, to), moved };
+    const moved = isClick ? [] : gapsAt(elements(), from, width, view.zoom);
+    if (moved[0]) return { door: draggedDoor(moved[0], from, to), moved };
     const wall = wallAt(elements(), from, view.zoom);
     if (!wall) return null;
-    return { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: null };
+    return { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: [] };
   };
 
   const useTool = (from: Point, to: Point, isClick: boolean) => {
@@ -161,7 +161,7 @@ export function App() {
       const found = doorOf(from, to, isClick);
       if (!found) return tell("there is no wall here to cut a door into");
       const { door, moved } = found;
-      put(cutDoor(moved ? closeGap(elements(), moved) : elements(), door));
+      put(cutDoor(moved.reduce(closeGap, [...elements()]), door));
     } else if (tool === "goal") {
       put([...elements().filter((one) => roleOf(one) !== "goal"), newGoal(to, GOAL_SIZE)]);
       setGoalName("");

@@ -48,7 +48,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
     >
       <label>
         World
-        <select value={choice.world} onChange={(event) => change({ world: event.target.value })}>
+        <select aria-label="World" value={choice.world} onChange={(event) => change({ world: event.target.value })}>
           <option value="">this drawing, made real</option>
           {worlds.map((world) => <option key={world.id} value={world.id}>{world.title}</option>)}
         </select>
@@ -62,7 +62,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
       )}
       <label>
         Goal
-        <select value={goal} onChange={(event) => setGoal(event.target.value)}>
+        <select aria-label="Goal" value={goal} onChange={(event) => setGoal(event.target.value)}>
           <option value="">{hasGoal ? "the flag on the drawing" : "choose a room, or set a flag"}</option>
           {goals.map((name) => <option key={name} value={name}>{name}</option>)}
         </select>
@@ -73,7 +73,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
       </label>
       <label>
         Speed
-        <select value={choice.speed} onChange={(event) => change({ speed: Number(event.target.value) })}>
+        <select aria-label="Speed" value={choice.speed} onChange={(event) => change({ speed: Number(event.target.value) })}>
           {[1, 2, 5, 10, 20].map((speed) => <option key={speed} value={speed}>{speed} x</option>)}
         </select>
       </label>

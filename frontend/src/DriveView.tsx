@@ -87,6 +87,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
             testId="world"
             label="The world as it is, with the robot in it. Drag the robot to carry it elsewhere."
             bounds={world.bounds}
+            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-door": middle(world.doors[0]?.segment) }}
             paint={paintWorld}
             grabs={(at, pixel) => !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
             onDrag={(_, to, released) => {
@@ -104,6 +105,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
 
 export const percent = (share: number) => `${Math.round(100 * share)} %`;
 
+const middle = (segment?: [number, number, number, number]) => (segment ? `${(segment[0] + segment[2]) / 2},${(segment[1] + segment[3]) / 2}` : "");
 const middleDistance = ([x1, y1, x2, y2]: [number, number, number, number], x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
 
 const ring = ([x, y]: Pose, radius: number): Point[] =>

@@ -14,10 +14,11 @@ interface Props {
   onDrag?: (from: Point, to: Point, released: boolean) => void;
   onPress?: (at: Point) => void;
   cursor?: string;
+  places?: Record<string, string>; // told as attributes, for tests
   testId: string;
 }
 
-export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, cursor, testId }: Props) {
+export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, cursor, places, testId }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [size, setSize] = useState<[number, number]>([0, 0]);
   const [view, setView] = useState({ zoom: 1, x: 0, y: 0 });
@@ -78,6 +79,7 @@ export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, curso
       data-testid={testId}
       data-scale={scale}
       data-shift={shift.join(",")}
+      {...places}
       style={{ cursor }}
       onPointerDown={(event) => {
         const { plan, screen } = at(event);

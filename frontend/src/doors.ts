@@ -6,6 +6,7 @@ const REACH = 14; // how far from a stroke one may click [scene units at zoom 1]
 const THICKNESS = 0.3; // how far beside the door walls are cut too, as a share of its width: double walls
 const ALONG = 0.75; // least |cosine| between the door and a piece of wall that it cuts
 const SHARE_OF_DRAWING = 1 / 16; // width of a first door, as a share of the drawing's diagonal
+const END = 10; // of a stroke, that tells where it goes [scene units]
 const WIDEST = 3; // widest gap that is taken for a door, in widths of usual doors
 
 export type Gap = [Point, Point];
@@ -151,17 +152,16 @@ function spanInside(a: Point, b: Point, half: number, thickness: number): [numbe
   return t1 - t0 > 1e-9 ? [t0, t1] : null;
 }
 
-/** The door at a point: two ends of strokes that face each other; null if there is none. */
-export function gapAt(elements: readonly Element[], p: Point, width: number, zoom: number): Gap | null {
+/** The door at a point: ends of strokes that face each other, one pair for each line of the wall, the nearest first. */
+export function gapsAt(elements: readonly Element[], p: Point, width: number, zoom: number): Gap[] {
   const ends = elements.filter(isWall).flatMap((element) => {
     const { points, closed } = outlineOf(element);
     return closed || points.length < 2 ? [] : [
-      { at: points[0]!, out: unit(minus(points[0]!, points[Math.min(3, points.length - 1)]!)) },
-      { at: points.at(-1)!, out: unit(minus(points.at(-1)!, points[Math.max(0, points.length - 4)]!)) },
+      { at: points[0]!, out: endDirection(points) },
+      { at: points.at(-1)!, out: endDirection([...points].reverse()) },
     ];
   });
-  let best: Gap | null = null;
-  let least = REACH / zoom;
+  const found: { gap: Gap; off: number }[] = [];
   ends.forEach((a, k) => {
     for (const b of ends.slice(k + 1)) {
       const wide = distance(a.at, b.at);
@@ -169,10 +169,21 @@ export function gapAt(elements: readonly Element[], p: Point, width: number, zoo
       const d = unit(minus(b.at, a.at));
       if (dot(a.out, d) < ALONG || dot(b.out, d) > -ALONG) continue;
       const off = distance(p, between(a.at, b.at, Math.max(0, Math.min(1, project(p, a.at, b.at)))));
-      if (off < least) [least, best] = [off, [a.at, b.at]];
+      if (off < REACH / zoom) found.push({ gap: [a.at, b.at], off });
     }
   });
-  return best;
+  const [nearest, ...others] = found.sort((a, b) => a.off - b.off).map((one) => one.gap);
+  if (!nearest) return [];
+  const near = THICKNESS * width;
+  const isBeside = ([a, b]: Gap) =>
+    (distance(a, nearest[0]) < near && distance(b, nearest[1]) < near) || (distance(a, nearest[1]) < near && distance(b, nearest[0]) < near);
+  return [nearest, ...others.filter(isBeside)];
+}
+
+/** The direction in which a stroke would go on beyond its first point. */
+function endDirection(points: Point[]): Point {
+  const first = points[0]!;
+  return unit(minus(first, points.find((one) => distance(first, one) > END) ?? points.at(-1)!));
 }
 
 const dot = (a: Point, b: Point) => a[0] * b[0] + a[1] * b[1];

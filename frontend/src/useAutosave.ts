@@ -64,6 +64,7 @@ export function useAutosave(content: () => string, revision: number, freeName: (
   useEffect(() => {
     if (revision === 0 || state === "conflict") return;
     now.current.changedAt ||= performance.now();
+    setState((before) => (before === "saved" ? "saving" : before));
     const waited = performance.now() - now.current.changedAt;
     const timer = setTimeout(() => void saveNow(), Math.max(0, Math.min(PAUSE_MS, LONGEST_MS - waited)));
     return () => clearTimeout(timer);

@@ -105,9 +105,9 @@ def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
         (("perceive", "nowhere.log"), "there is no such file"),
         (("simplify", "nowhere.svg"), "there is no such file"),
         (("perceive", worlds.OFFICE.quick), "no laser log"),
-        (("simplify", worlds.LOG), "well-formed XML"),
+        (("simplify", worlds.LOG), "of this kind cannot be read"),
         (("perceive", worlds.LOG, "--scan", "9999"), "scans 0 to 291"),
-        (("localize", worlds.LOG, worlds.OFFICE.quick), "well-formed XML"),
+        (("localize", worlds.LOG, worlds.OFFICE.quick), "of this kind cannot be read"),
         (("localize", worlds.OFFICE.quick, worlds.OFFICE.quick), "no laser log"),
         (("localize", worlds.OFFICE.quick, worlds.LOG, "--from", "500"), "none of them from 500"),
         (

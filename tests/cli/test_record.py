@@ -2,7 +2,7 @@
 
 import json
 
-from bag_making import decoded
+from benchmarks.lib.bag_making import decoded
 
 from pilotage import worlds
 

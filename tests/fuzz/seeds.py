@@ -1,5 +1,6 @@
 """A small valid file of each format that is read, to be spoilt."""
 
+import functools
 import gzip
 import io
 import json
@@ -76,6 +77,7 @@ q 1 0 0 1 5 5 cm 0.5 g 100 20 10 10 re f Q BT /F1 8 Tf 20 30 Td (Kitchen) Tj ET
 FONT = b"<< /Font << /F1 << /Type /Font /Subtype /Type1 /BaseFont /Helvetica >> >> >>"
 
 
+@functools.cache
 def seeds() -> dict[str, bytes]:
     """Return the name of each valid file, and its content; the suffix tells the format."""
     return {
@@ -102,24 +104,40 @@ def seeds() -> dict[str, bytes]:
 
 
 def dxf() -> bytes:
-    """Write lines, a door block, an arc, a hatch and words."""
-    import ezdxf
-
-    document = ezdxf.new(setup=False)
-    document.units = 4
-    space = document.modelspace()
+    """Write lines, a door block, a hatched triangle and words, as an old program does."""
+    pairs: list[tuple[int, object]] = [
+        (0, "SECTION"),
+        (2, "HEADER"),
+        (9, "$INSUNITS"),
+        (70, 4),
+        (0, "ENDSEC"),
+    ]
+    pairs += [(0, "SECTION"), (2, "BLOCKS"), (0, "BLOCK"), (8, 0), (2, "DOOR"), (70, 0), (10, 0), (20, 0)]
+    pairs += [(0, "ARC"), (8, "A-DOOR"), (10, 0), (20, 0), (40, 9.0), (50, 0), (51, 90)]
+    pairs += [(0, "LINE"), (8, "A-DOOR"), (10, 0), (20, 0), (11, 0), (21, 9), (0, "ENDBLK"), (0, "ENDSEC")]
+    pairs += [(0, "SECTION"), (2, "ENTITIES")]
     for wall in WALLS:
-        space.add_lwpolyline([(100 * x, 100 * y) for x, y in wall], dxfattribs={"layer": "A-WALL"})
-    block = document.blocks.new("DOOR")
-    block.add_arc((0, 0), 900, 0, 90)
-    block.add_line((0, 0), (0, 900))
-    space.add_blockref("DOOR", (5000, 2000), dxfattribs={"rotation": 45})
-    space.add_hatch(color=7).paths.add_polyline_path([(0, 0), (100, 0), (100, 100)])
-    space.add_mtext("Kitchen\\P11 m2", dxfattribs={"insert": (2000, 2000), "char_height": 200})
-    space.add_spline([(0, 0), (10, 20), (30, 40), (50, 0)])
-    stream = io.StringIO()
-    document.write(stream)
-    return stream.getvalue().encode()
+        pairs += [(0, "POLYLINE"), (8, "A-WALL"), (66, 1), (70, 0)]
+        for x, y in wall:
+            pairs += [(0, "VERTEX"), (8, "A-WALL"), (10, x), (20, y), (42, 0.1)]
+        pairs += [(0, "SEQEND")]
+    pairs += [(0, "INSERT"), (8, 0), (2, "DOOR"), (10, 50), (20, 20), (41, 1), (42, 1), (50, 45)]
+    pairs += [
+        (0, "SOLID"),
+        (8, "A-WALL"),
+        (10, 0),
+        (20, 0),
+        (11, 5),
+        (21, 0),
+        (12, 5),
+        (22, 5),
+        (13, 5),
+        (23, 5),
+    ]
+    pairs += [(0, "CIRCLE"), (8, "A-FURN"), (10, 20), (20, 20), (40, 3)]
+    pairs += [(0, "TEXT"), (8, "A-TEXT"), (10, 20), (20, 30), (40, 4), (1, "Kitchen")]
+    pairs += [(0, "ENDSEC"), (0, "EOF")]
+    return "".join(f"{code:3}\n{value}\n" for code, value in pairs).encode()
 
 
 def pdf() -> bytes:

@@ -8,7 +8,7 @@ from tests.fuzz.bombs import bombs
 from tests.fuzz.seeds import seeds
 from tests.fuzz.worker import Worker
 
-SECONDS = 12.0
+SECONDS = 10.0
 
 
 @pytest.fixture(scope="module")

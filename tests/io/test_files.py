@@ -7,7 +7,6 @@ import stat
 import pytest
 
 from pilotage.errors import FileError
-from pilotage.io import files
 from pilotage.io.files import read_bytes, replacing, write_text
 
 

@@ -327,7 +327,7 @@ def test_a_word_can_mark_the_start(tmp_path):
         ("", "empty|well-formed"),
         ("hello", "well-formed"),
         ("<svg><g></svg>", "well-formed"),
-        ("<html></html>", "begin with <svg>"),
+        ("<html></html>", "a web page cannot be read"),
         ("<svg/>", "at least one visible stroke"),
         ('<svg><line x1="1" y1="1" x2="1" y2="1" stroke="black"/></svg>', "at least one visible stroke"),
         ('<svg><text x="1" y="1">hall</text></svg>', "at least one visible stroke"),
@@ -354,7 +354,7 @@ def test_a_file_that_is_no_drawing_is_refused_in_one_line(tmp_path, content, rul
 def test_a_missing_file_and_a_folder_are_refused(tmp_path):
     with pytest.raises(FileError, match="no such file"):
         open_map(tmp_path / "nowhere.svg")
-    with pytest.raises(FileError, match="cannot be opened"):
+    with pytest.raises(FileError, match="found a folder"):
         open_map(tmp_path)
 
 

@@ -58,6 +58,4 @@ def test_a_place_says_within_two_percent_where_a_cell_is(magnitude, x, y):
 def test_a_ring_is_placed_where_it_is_and_not_in_its_hole():
     ring = shapely.Polygon(shapely.box(0, 0, 100, 100).exterior, [shapely.box(10, 10, 90, 90).exterior])
 
-    assert place_name(ring, 140.0, FileAxes()) != place_name(
-        shapely.box(10, 10, 90, 90), 140.0, FileAxes()
-    )
+    assert place_name(ring, 140.0, FileAxes()) != place_name(shapely.box(10, 10, 90, 90), 140.0, FileAxes())

@@ -88,11 +88,13 @@ def test_a_person_may_play_fate(client: TestClient) -> None:
 def test_what_cannot_be_done_is_said_and_the_drive_goes_on(client: TestClient) -> None:
     with talking(client) as talk:
         talk.start(paused=True)
+        corner = talk.hear("world")["walls"][0]
         for kind, fields, words in (
             ("speed", {"speed": 500}, "from 1 to 20"),
             ("goal", {"goal": "attic"}, "attic"),
             ("door", {"x": 1e6, "y": 0}, "no door within"),
             ("person", {"x": "here"}, "x must be a number"),
+            ("kidnap", {"x": corner[0], "y": corner[1]}, "cannot stand there"),
             ("scrub", {"t": "then"}, "t must be a number"),
         ):
             talk.say(kind, **fields)
@@ -177,3 +179,20 @@ def test_a_drawing_of_the_folder_drives_in_a_world_of_the_folder(client: TestCli
 
     assert [30.0, 30.0] == session["drawing"]["goal"]
     assert frame["world"]["on_drawing"] is None
+
+
+def test_a_log_is_localized_live_and_can_only_be_watched(client: TestClient) -> None:
+    with talking(client) as talk:
+        talk.say("start", drawing="example:office/quick", log="packed:office", speed=20)
+        session = talk.hear("session")
+        frame = talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
+        talk.say("box", x=0, y=0)
+        assert "only be watched" in talk.hear("error")["text"]
+        talk.say("goal", goal="Ana")
+        assert "cannot be driven" in talk.hear("error")["text"]
+
+    assert frame["world"] is None
+    assert 750 == len(frame["believed"]["particles"])
+    assert frame["text"].startswith(("lost", "in "))
+    refused = client.get(f"/api/sessions/{session['session']}/journal")
+    assert (504, "a log can only be watched") == (refused.status_code, refused.json()["error"])

@@ -24,6 +24,24 @@ def test_a_slow_client_gets_the_newest_of_each_kind_and_nothing_piles_up() -> No
     assert (["state 999", "frame 999"], ["next"]) == asyncio.run(watch())
 
 
+def test_a_client_that_says_what_it_saw_is_never_far_behind() -> None:
+    async def watch() -> list[list[str]]:
+        client, taken = Client(), []
+        client.saw()
+        for k in range(10):
+            client.put("frame", f"frame {k}")
+            client.put("state", f"state {k}")
+            taken.append(await client.take())
+        client.saw()
+        return [*taken, await client.take()]
+
+    *taken, last = asyncio.run(watch())
+
+    assert [["state 2", "frame 2"], ["state 3"]] == taken[2:4]
+    assert ["state 9"] == taken[-1]
+    assert ["frame 9"] == last
+
+
 @given(st.lists(st.floats(0.01, 30.0), min_size=1, max_size=300))
 def test_a_history_is_bounded_and_answers_with_the_past(gaps: list[float]) -> None:
     history, t, times = History(most=20), 0.0, []

@@ -12,6 +12,7 @@ from pilotage.cli.localize import localize
 from pilotage.cli.navigate import navigate
 from pilotage.cli.perceive import perceive
 from pilotage.cli.record import record
+from pilotage.cli.ros2 import ros2
 from pilotage.cli.settings import settings
 from pilotage.cli.simplify import simplify
 from pilotage.cli.table import table
@@ -52,6 +53,7 @@ app.command()(localize)
 app.command()(navigate)
 app.command()(perceive)
 app.command()(record)
+app.command()(ros2)
 app.command()(settings)
 app.command()(simplify)
 app.command()(table)

@@ -58,6 +58,7 @@ def demo(
     typer.echo(f"{story(recorded)} {truth(recorded, OFFICE)}")
     draw(recorded, output, f'To "{GOAL}" in an office drawn from memory', moving=True)
     say(f"See {output / ANIMATION}, {output / FIGURE} and {output / JOURNAL}.")
+    say("To draw a building of your own and watch a robot find its way in it: make table, or pilotage table")
 
 
 def claim(folder: Path, files: Sequence[Path], *, force: bool) -> None:

@@ -18,7 +18,10 @@ SHADINGS = ("recognized", "light-is-free", "dark-is-free", "lines")
 
 Map = Annotated[
     Path,
-    typer.Argument(metavar="MAP", help="A drawing: SVG, a picture (PNG, JPEG, PGM) or a ROS map (YAML)."),
+    typer.Argument(
+        metavar="MAP",
+        help="A drawing: SVG, PDF, DXF, draw.io, Excalidraw, an indoor map, a picture or a ROS map (YAML).",
+    ),
 ]
 Layers = Annotated[
     list[str] | None,

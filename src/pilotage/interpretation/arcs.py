@@ -13,8 +13,8 @@ LEAST_CHORDS = 3
 STEEPEST = np.radians(40.0)
 """Two chords of one arc turn by less than this: a quarter circle is at least LEAST_CHORDS long."""
 
-SWEEP = np.radians([50.0, 130.0])
-"""A door opens by so much: a quarter circle, drawn by people."""
+SWEEP = np.radians([10.0, 130.0])
+"""An open door is drawn open by so much: mostly a quarter circle, sometimes ajar."""
 
 ROUNDNESS = 0.04
 """No vertex of an arc lies farther off its circle than this share of the radius."""
@@ -31,6 +31,7 @@ class Arc:
     radius: float
     ends: Array  # (2, 2)
     vertices: Array  # (n, 2) of the line that draws it, its ends first and last
+    sweep: float  # [rad] between its ends
 
 
 def find_arcs(line: Polyline) -> Iterator[Arc]:
@@ -75,7 +76,7 @@ def fitted(points: Array) -> Arc | None:
     if radius == 0.0 or strays.max() > ROUNDNESS * radius:
         return None
     angles = np.unwrap(np.arctan2(spokes[:, 1], spokes[:, 0]))
-    sweep = abs(angles[-1] - angles[0])
+    sweep = float(abs(angles[-1] - angles[0]))
     if not SWEEP[0] <= sweep <= SWEEP[1]:
         return None
-    return Arc(center, radius, points[[0, -1]], points)
+    return Arc(center, radius, points[[0, -1]], points, sweep)

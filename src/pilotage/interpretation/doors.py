@@ -19,11 +19,14 @@ RADII = (0.004, 0.12)
 ALIKE = 1.6
 """Doors of one drawing differ in width from their median by no more than this factor."""
 
+AJAR = np.radians(50.0)
+"""An arc that sweeps less is a door only if it has a leaf."""
+
 LEAF = (0.6, 1.25)
 """A leaf is as long as the radius of its arc, within these shares."""
 
 SLACK = 0.1
-"""How far a leaf may stray from its arc's spoke, as a share of the radius: people draw it, and it has a thickness."""
+"""How far a leaf may stray from its arc's spoke, as a share of the radius: it has a thickness."""
 
 BESIDE = 0.25
 """Where a wall is looked for beyond hinge and latch, as a share of the radius."""
@@ -35,7 +38,7 @@ THROUGH = 0.5
 """How far a wall is cut to either side of an opening, as a share of its width: no wall is thicker."""
 
 TWINS = 0.2
-"""Arcs whose centers and radii differ by less than this share of the radius draw one door: both sides of a line."""
+"""Arcs whose centers and radii differ by less than this share of the radius draw one door."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +119,7 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     doors = []
     for arc, marks, leaves, walls in judged:
         like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
-        if not like_others or not (leaves.any() or walls.max() == 2.0):
+        if not like_others or not (leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)):
             continue
         closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
         doors.append(Door(arc.center, arc.ends[closed], arc, marks))

@@ -8,6 +8,7 @@ import numpy as np
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.meanings import Findings, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
@@ -15,7 +16,6 @@ from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
 from pilotage.interpretation.words import find_names
 from pilotage.maps import Label, SchematicMap
-
 
 GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
@@ -35,14 +35,6 @@ class Hints:
 
     layers: Mapping[str, Role] = field(default_factory=dict)  # a layer, class, id or block name -> its role
     labels: tuple[Label, ...] = ()  # names of rooms, y up [drawing units]
-
-
-@dataclass(frozen=True, slots=True)
-class Meaning:
-    """What a mark was taken for, and why."""
-
-    role: Role
-    reason: str  # a few words, as in "leaf and quarter arc" or "its layer is named 'A-FURN'"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,15 +60,23 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     drawn = [number for number in open_to_guess if number not in paper.sheets]
     diagonal = diagonal_of(sheet, drawn)
     glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
-    drawn = [number for place, number in enumerate(drawn) if place not in glyphs]
-    seen = look_at(sheet, drawn, paper.ground, diagonal)
+    letters = {number for place, number in enumerate(drawn) if place in glyphs}
+    visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     guessed = {
-        mark.number: role[0] for mark in seen if (role := guessed_role(sheet.marks[mark.number].names))
+        mark.number: role for mark in visible if (role := guessed_role(sheet.marks[mark.number].names))
     }
-    doors = find_doors(sheet, seen, diagonal)
-    seen = without_doors(seen, doors)
-    seen = [mark for mark in seen if guessed.get(mark.number) not in NO_WALLS]
-    walls = find_walls(seen, sheet, guessed, doors, paper.ground, diagonal)
+    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] in NO_WALLS}
+    doors = find_doors(sheet, visible, diagonal)
+    left = without_doors(visible, doors)
+    seen = [mark for mark in left if mark.number not in named]
+    walls = find_walls(
+        seen,
+        sheet,
+        {number: role for number, (role, _) in guessed.items()},
+        doors,
+        ground=paper.ground,
+        diagonal=diagonal,
+    )
     strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
@@ -96,7 +96,21 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         metres_per_unit=sheet.metres_per_unit,
         photo_from_sketch=sheet.photo_from_sheet,
     )
-    meanings = tuple(Meaning(*(role or (Role.WALL, "a stroke"))) for role in told)
+    meanings = find_meanings(
+        sheet,
+        Findings(
+            {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
+            set(paper.sheets),
+            letters,
+            named,
+            visible,
+            left,
+            doors,
+            walls,
+            paper.ground,
+            diagonal,
+        ),
+    )
     return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
 
 

@@ -22,22 +22,23 @@ SPOKEN: Mapping[str, Role] = {
 """The words with which a user tells this program a role; they are always believed."""
 
 VOCABULARY: Mapping[Role, str] = {
-    Role.WALL: "wall walls wand waende wände mauer mur murs cloison muro muri muros parete parede paredes pared"
-    " tabique muur muren vägg vegg seinä стена стены",
-    Role.DOOR: "door doors doorarc tür türen tuer tueren porte portes porta porte portas puerta puertas deur dörr"
-    " ovi двери дверь",
-    Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana ventanas"
-    " janela janelas raam fönster ikkuna окно окна",
-    Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera escaleras"
-    " escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
+    Role.WALL: "wall walls wand waende wände mauer mur murs cloison muro muri muros parete parede"
+    " paredes pared tabique muur muren vägg vegg seinä стена стены",
+    Role.DOOR: "door doors doorarc tür türen tuer tueren porte portes porta porte portas puerta puertas"
+    " deur dörr ovi двери дверь",
+    Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
+    " ventanas janela janelas raam fönster ikkuna окно окна",
+    Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
+    " escaleras escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
-    " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture fixtures"
-    " sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb kitchenware plants trees cabinet"
-    " desk chair table sofa bed toilet sink bathtub shower мебель",
+    " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture"
+    " fixtures sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb kitchenware"
+    " plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto",
-    Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota cotas"
-    " title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes achse achsen"
-    " hatch hatching pattern schraffur hachures defpoints viewport viewports legend north",
+    Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
+    " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
+    " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
+    " legend north",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 

@@ -30,8 +30,8 @@ class Paper:
 def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
     """Find sheets of paper among the marks drawn: rectangles, filled but without a line, below all else.
 
-    A sheet covers the whole page, or is white or of the color of the ground and holds all else; a colored rectangle on
-    a part of the page is a building.
+    A sheet covers the whole page, or is white or of the color of the ground and holds all else; a colored
+    rectangle on a part of the page is a building.
     """
     sheets: list[int] = []
     ground = sheet.background

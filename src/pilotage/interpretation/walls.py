@@ -23,7 +23,7 @@ from pilotage.interpretation.solids import (
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
 
-USUAL_GAP = 0.04
+USUAL_GAP = 0.08
 """The same where no door is drawn, as a share of the drawing's diagonal."""
 
 PALE = 0.4
@@ -45,6 +45,7 @@ def find_walls(
     sheet: Sheet,
     named: Mapping[int, Role],
     doors: Sequence[Door],
+    *,
     ground: Color,
     diagonal: float,
 ) -> Walls:

@@ -18,18 +18,38 @@ GLYPH_WIDTH = 0.5
 ALIKE = 1.35
 """Lines of one name differ in height by no more than this factor."""
 
-MEASURE = re.compile(
-    r"""^\W*(?:(?:area|fläche|superficie|surface)\W*)?
-    (?:[\d.,'"’”′″\s/xX×*-]+(?:ft|feet|in|m|mm|cm)?\.?[\sxX×*]*)*
-    \d*[.,]?\d+\s*(?:m2|m²|qm|㎡|sq\.?\s*(?:m|ft|feet|metres|meters)\.?|sf|ft²|ft2|mq|m\^2|кв\.?\s*м\.?)\W*$
-    |^\W*(?=.*\d)[\d.,'"’”′″\s/-]+(?:ft|feet|in|m|mm|cm)?\.?\s*[xX×*]\s*[\d.,'"’”′″\s/-]+(?:ft|feet|in|m|mm|cm)?\.?\W*$
-    |^\W*(?=.*\d)[\d.,\s/-]*\d\s*(?:['"’”′″]|ft|feet|mm|cm|m)[\d\s.,'"’”′″/-]*\W*$
-    """,
-    re.VERBOSE | re.IGNORECASE,
+UNITS = frozenset(
+    (
+        "mm",
+        "cm",
+        "m",
+        "ft",
+        "feet",
+        "in",
+        "inch",
+        "inches",
+        "sq",
+        "sqm",
+        "sqft",
+        "sf",
+        "qm",
+        "mq",
+        "m²",
+        "ft²",
+    )
+    + ("㎡", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface")
 )
-"""An area, two sides of a room, or a length with its unit."""
+"""Words of areas and lengths; with numbers and nothing else they are no name."""
 
-MARK_OF_NOTHING = re.compile(r"^\W*$")
+SIGNS = (
+    "'\"\N{RIGHT SINGLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}\N{PRIME}\N{DOUBLE PRIME}"
+    "\N{MULTIPLICATION SIGN}"
+)
+"""Feet, inches, and what stands between two sides."""
+
+TOKEN = re.compile(r"[^\W\d_]+|[\d²³]+|\S")
+
+MARK_OF_NOTHING = re.compile(r"\W*")
 """Words without a letter or a digit."""
 
 
@@ -43,18 +63,24 @@ class Name:
 
 
 def is_measure(words: str) -> bool:
-    """Tell areas and lengths from names.
+    r"""Tell areas and lengths from names.
 
-    >>> [is_measure(words) for words in ("11.2 m²", "3.50 x 4.20", "12'-0\\" x 10'-6\\"", "Room 7", "201")]
+    >>> [is_measure(words) for words in ("11.2 m²", "3.50 x 4.20", "12'-0\" x 10'-6\"", "Room 7", "201")]
     [True, True, True, False, False]
     """
-    return MEASURE.match(words) is not None
+    tokens = TOKEN.findall(words.casefold())
+    letters = [token for token in tokens if token[0].isalpha()]
+    has_number = any(token[0].isdecimal() for token in tokens)
+    has_unit = bool(letters) or any(token in SIGNS for token in tokens)
+    return has_number and has_unit and all(word in UNITS for word in letters)
 
 
 def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
     """Join the lines of each name, the upper first; words without a letter, and measures, are left out."""
     kept = [
-        (n, text) for n, text in texts if not is_measure(text.text) and not MARK_OF_NOTHING.match(text.text)
+        (n, text)
+        for n, text in texts
+        if not is_measure(text.text) and not MARK_OF_NOTHING.fullmatch(text.text)
     ]
     following: dict[int, int] = {}
     for place, (_, upper) in enumerate(kept):

@@ -11,6 +11,9 @@ from pilotage.geometry import Array
 STEP = math.pi / 16.0
 """A chord spans at most this turn of its curve [rad]: it strays from a circle by 0.5 % of the radius."""
 
+FEWEST_CHORDS = 4
+"""Chords of an arc at least: with fewer, its circle cannot be told."""
+
 MOST_CHORDS = 64
 """Chords of one Bezier curve at most."""
 
@@ -43,5 +46,7 @@ def arc(center: ArrayLike, radii: tuple[float, float], start: float, sweep: floa
     [[2.0, 0.0], [0.0, 1.0]]
     """
     sweep = min(max(sweep, -2.0 * math.pi), 2.0 * math.pi)
-    angles = start + sweep * np.linspace(0.0, 1.0, max(1, math.ceil(abs(sweep) / STEP - 1e-9)) + 1)
+    angles = start + sweep * np.linspace(
+        0.0, 1.0, max(FEWEST_CHORDS, math.ceil(abs(sweep) / STEP - 1e-9)) + 1
+    )
     return np.asarray(center) + np.column_stack([radii[0] * np.cos(angles), radii[1] * np.sin(angles)])

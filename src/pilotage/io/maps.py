@@ -93,14 +93,14 @@ def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpr
 def read_pdf_page(
     file: Path, page: str | None, hints: DrawingHints
 ) -> tuple[SchematicMap, Interpretation | None]:
-    """Read a page of a PDF file; one that is a picture is read as such, in pixels."""
-    from pilotage.io.pdf import PicturePageError, page_picture
+    """Read a page of a PDF file; one that shows a picture is read as such."""
+    from pilotage.io.pdf import PicturePageError, read_picture_page
 
     try:
         return understood(read_sheet(file, page), file, hints)
     except PicturePageError:
-        colors = np.asarray(page_picture(file, page) / 255.0, dtype=np.float32)
-        seen = sheet_or_plan(Picture(colors), KINDS[hints.shading], file)
+        kind = KINDS[hints.shading]
+        seen = read_picture_page(file, page, lambda colors: sheet_or_plan(Picture(colors), kind, file))
     return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
 
 

@@ -141,6 +141,8 @@ def outline_through(points: ArrayLike, *, closed: bool = False) -> Polyline | No
     vertices = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     if len(vertices) < 2 or not np.isfinite(vertices).all():
         return None
+    if len(vertices) == 2:  # most shapes of large drawings
+        return None if (vertices[0] == vertices[1]).all() else Polyline(vertices)
     grain = SAME_POINT * float(np.ptp(vertices, axis=0).max())
     steps = np.abs(np.diff(vertices, axis=0)).max(axis=1)
     vertices = vertices[np.concatenate([[True], steps > grain])]

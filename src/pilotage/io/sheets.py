@@ -55,7 +55,7 @@ def read_dxf(path: Path) -> Sheet:
 
 
 def read_pdf(path: Path, page: str | None) -> Sheet:
-    """Read a page of a PDF file, as a picture if it shows one."""
+    """Read a page of a PDF file; one that shows a picture raises PicturePageError."""
     from pilotage.io.pdf import read_pdf as read
 
     return read(path, page)

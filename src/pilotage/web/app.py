@@ -71,6 +71,7 @@ def routes(static: Path) -> list[Route | WebSocketRoute | Mount]:
         Route("/api/uploads", files.upload, methods=["POST"]),
         Route("/api/understand", files.understand, methods=["POST"]),
         Route("/api/worlds", files.list_worlds),
+        Route("/api/logs", files.list_logs),
         Route("/api/sessions", lives.list_sessions),
         Route("/api/sessions/{number}", lives.forget_session, methods=["DELETE"]),
         *(

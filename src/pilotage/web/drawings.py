@@ -2,6 +2,7 @@
 
 import tempfile
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 from xml.sax.saxutils import escape
@@ -43,7 +44,7 @@ def read_sent(sent: Sent) -> "Drawing":
             raise UnreadableError(error.rule) from error
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Page:
     """The axes of a page on which a drawing is shown: its units, y down, whatever its file says."""
 
@@ -76,7 +77,7 @@ class Page:
         left, bottom, right, top = self.sketch.bounds
         return [*self.points(np.array([[left, top]]))[0], *self.points(np.array([[right, bottom]]))[0]]
 
-    @property
+    @cached_property
     def decimals(self) -> int:
         """Decimals that mean something on a drawing of this size."""
         return max(0, DIGITS - int(np.floor(np.log10(max(self.sketch.diagonal, 1e-9)))))

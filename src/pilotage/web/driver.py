@@ -13,6 +13,7 @@ from pilotage.navigation import Outcome, Step
 from pilotage.web.fate import FATES
 from pilotage.web.frames import Cloud, FrameMaker
 from pilotage.web.order import SPEEDS, Order, number, place, switch
+from pilotage.web.replay import Replay, ReplayError
 from pilotage.web.stage import Stage, set_stage
 from pilotage.web.words import name_of
 
@@ -46,12 +47,18 @@ def drive_in_worker(connection: Connection, order: Order) -> None:
 class Driver:
     """The loop of a drive, as `pilotage.drives.drive`, with a page that interferes."""
 
-    def __init__(self, connection: Connection, stage: Stage, order: Order) -> None:
+    def __init__(self, connection: Connection, stage: Stage | Replay, order: Order) -> None:
         self._connection = connection
         self._stage = stage
         self._order = order
         self._speed, self._paused = order.speed, order.paused
-        self._frames = FrameMaker(stage.navigator, stage.page, Cloud(stage.localizer), stage.truth)
+        self._frames = FrameMaker(
+            stage.navigator,
+            stage.page,
+            Cloud(stage.localizer),
+            stage.truth,
+            shows_world=isinstance(stage, Stage),
+        )
         self._instants: list[Instant] = []
         self._marks: list[dict[str, object]] = []
         self._over = False
@@ -77,7 +84,20 @@ class Driver:
         """Say what this drive is about."""
         how = {"speed": self._speed, "paused": self._paused, "over": self._over}
         self._send("session", {**self._stage.describe(self._order.title), **how})
-        self._send("world", self._stage.describe_world())
+        self._show_world()
+
+    def _show_world(self) -> None:
+        """Show all that stands, where it is known."""
+        world = self._stage.describe_world()
+        if world is not None:
+            self._send("world", world)
+
+    @property
+    def _simulated(self) -> Stage:
+        """The stage of a drive; ReplayError if it is that of a log."""
+        if isinstance(self._stage, Replay):
+            raise ReplayError("a log can only be watched")
+        return self._stage
 
     @property
     def _stands(self) -> bool:
@@ -103,13 +123,15 @@ class Driver:
         del self._instants[: max(0, len(self._instants) - MOST_INSTANTS)]
         self._note_changes(before, instant.step)
         now, t = time.monotonic(), instant.step.stamp
-        over = instant.step.outcome is not None
+        over = instant.step.outcome is not None or stage.is_over
         is_due = now - self._shown_at >= FRAME_EVERY or t - self._shown_t >= RECORD_EVERY
         if is_due or over or self._paused:
             self._shown_at, self._shown_t = now, t
             self._show(instant)
         if instant.step.outcome is not None:
             self._finish(instant.step.outcome.value, instant.step.reason)
+        elif stage.is_over:
+            self._finish("over", "the log ends here")
 
     def _show(self, instant: Instant) -> None:
         """Send a frame, as text: the server passes it on unread."""
@@ -164,8 +186,8 @@ class Driver:
         try:
             kind = str(message.get("type"))
             if kind in FATES:
-                self._mark("fate", FATES[kind](self._stage, message))
-                self._send("world", self._stage.describe_world())
+                self._mark("fate", FATES[kind](self._simulated, message))
+                self._show_world()
                 self._show_again()
             elif kind in HANDLERS:
                 HANDLERS[kind](self, message)
@@ -203,19 +225,15 @@ class Driver:
         """Show a change at once if the drive stands."""
         if self._stands:
             last = self._instants[-1]
-            self._show(Instant(last.step, self._stage.simulator.scene, last.step_ms))
+            self._show(Instant(last.step, self._simulated.simulator.scene, last.step_ms))
 
     def _export(self, message: Message) -> None:
         """Write what a person wants to keep to a file that the server made, and answer by its name."""
         path, kind = Path(str(message["path"])), str(message["kind"])
-        drive = Drive.of(
-            self._stage.navigator.planner.atlas,
-            self._stage.simulator.world,
-            self._stage.navigator.planner.goal,
-            self._instants,
-        )
         failure = ""
         try:
+            planner = self._stage.navigator.planner
+            drive = Drive.of(planner.atlas, self._simulated.simulator.world, planner.goal, self._instants)
             write_export(kind, drive, path, self._order.title)
         except (PilotageError, OSError, MemoryError) as error:
             failure = str(error) or "there is not enough memory"

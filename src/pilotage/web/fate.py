@@ -35,6 +35,8 @@ def kidnap(stage: Stage, message: Message) -> str:
     """Carry the robot elsewhere, unseen by its wheels."""
     x, y = world_point(message)
     heading = number(message, "heading", -FARTHEST, FARTHEST, stage.simulator.world_from_base.theta)
+    if not stage.simulator.world.is_free([(x, y)], stage.simulator.settings.body.radius)[0]:
+        raise OrderError("the robot cannot stand there, a wall or a thing is in the way")
     stage.simulator.carry(Pose2(x, y, heading))
     return "the robot was carried elsewhere"
 

@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from pilotage.web import work
-from pilotage.web.folder import WORLDS, ChangedError
+from pilotage.web.folder import LOGS, WORLDS, ChangedError
 from pilotage.web.order import OrderError, Place, Sent, numbers
 from pilotage.web.table import table_of
 from pilotage.worlds import ALL, PackedWorld
@@ -33,6 +33,10 @@ UPLOADS = (
 
 EXAMPLES = {f"{packed.name}/{hand}": (packed, hand) for packed in ALL for hand in ("careful", "quick")}
 """Drawings of the packed worlds, by name."""
+
+
+PACKED_LOG = "packed:office"
+"""The packed log, of a drive through the packed office."""
 
 
 def describe_server(request: Request) -> Response:
@@ -120,6 +124,14 @@ def list_worlds(request: Request) -> Response:
         for name in table_of(request).folder.names(WORLDS)
     ]
     return JSONResponse({"worlds": packed + files})
+
+
+def list_logs(request: Request) -> Response:
+    """List logs that can be replayed on a drawing."""
+    packed = {"id": PACKED_LOG, "title": "office", "drawings": ["office/careful", "office/quick"]}
+    names = table_of(request).folder.names(LOGS)
+    files = [{"id": f"file:{name}", "title": name, "drawings": []} for name in names]
+    return JSONResponse({"logs": [packed, *files]})
 
 
 async def understand(request: Request) -> Response:

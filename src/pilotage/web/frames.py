@@ -56,6 +56,7 @@ class FrameMaker:
     page: Page
     cloud: Cloud
     truth: Truth | None  # None if it is not known where the world is on the drawing
+    shows_world: bool  # whether anything true is known
 
     def frame(self, instant: Instant, t: float, goal: str) -> Json:
         """Describe a step; `goal` names where the robot is going."""
@@ -68,7 +69,7 @@ class FrameMaker:
             "text": sentence(step, self.navigator.planner.graph, goal),
             "believed": self.believed(instant),
             "speed": [round(step.command.linear, 3), round(step.command.angular, 3)],
-            "world": self.world(instant.scene),
+            "world": self.world(instant.scene) if self.shows_world else None,
         }
 
     def believed(self, instant: Instant) -> Json:

@@ -14,13 +14,13 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pilotage.web import order as orders
-from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, example_drawing
-from pilotage.web.folder import WORLDS
-from pilotage.web.order import MadeRealOrder, Order, OrderError, Sent
+from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, PACKED_LOG, example_drawing
+from pilotage.web.folder import LOGS, WORLDS
+from pilotage.web.order import LogOrder, MadeRealOrder, Order, OrderError, Sent
 from pilotage.web.sessions import Client, Session
 from pilotage.web.table import Table, table_of
 from pilotage.web.workers import WorkerError
-from pilotage.worlds import ALL
+from pilotage.worlds import ALL, LOG
 
 Message = dict[str, Any]
 
@@ -106,6 +106,8 @@ async def obey(message: Message, session: Session, client: Client) -> None:
     kind = message.get("type")
     if kind in PASSED_ON:
         await asyncio.to_thread(session.tell, message)
+    elif kind == "seen":
+        client.saw()
     elif kind == "scrub":
         try:
             t = message.get("t")
@@ -162,8 +164,10 @@ def read_drawing(message: Message, table: Table) -> tuple[Sent, str, str | None]
         raise OrderError(f"there is no drawing {name!r}") from error
 
 
-def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder, Any]:
-    """Find the world of a drive, and which packed one it is, if it is one."""
+def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | LogOrder, Any]:
+    """Find the world of a drive, and which packed one it is, if it is one; or a log instead."""
+    if message.get("log") is not None:
+        return read_log(orders.text(message, "log"), table), None
     made_real = message.get("made_real")
     if isinstance(made_real, dict):
         severity = orders.number(made_real, "severity", 0.0, 1.0, otherwise=0.5)
@@ -176,6 +180,16 @@ def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder, An
     if kind != "file" or name not in table.folder.names(WORLDS):
         raise OrderError(f"there is no world {wanted[:60]!r}")
     return table.folder.path(name, WORLDS), None
+
+
+def read_log(wanted: str, table: Table) -> LogOrder:
+    """Find a log."""
+    kind, _, name = wanted.partition(":")
+    if wanted == PACKED_LOG:
+        return LogOrder(LOG)
+    if kind != "file" or name not in table.folder.names(LOGS):
+        raise OrderError(f"there is no log {wanted[:60]!r}")
+    return LogOrder(table.folder.path(name, LOGS))
 
 
 def list_sessions(request: Request) -> Response:

@@ -84,6 +84,7 @@ PATHS: dict[str, dict[str, object]] = {
         )
     },
     "/api/worlds": {"get": operation("list worlds to drive in")},
+    "/api/logs": {"get": operation("list laser logs that can be replayed")},
     "/api/sessions": {"get": operation("list drives")},
     "/api/sessions/{number}": {"delete": operation("end and forget a drive", status="204", number="path")},
     "/api/sessions/{number}/journal": {"get": operation("its journal, JSON Lines", number="path")},

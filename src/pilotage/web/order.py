@@ -38,12 +38,19 @@ class MadeRealOrder:
 
 
 @dataclass(frozen=True, slots=True)
+class LogOrder:
+    """A log to be replayed."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
 class Order:
     """A drive to begin."""
 
     title: str
     drawing: Sent
-    world: Path | MadeRealOrder
+    world: Path | MadeRealOrder | LogOrder
     warp: Path | None = None  # control points of a packed drawing in a packed world: the truth, to be shown
     goal: Place | None = None  # as the drawing marks it if None
     start: tuple[float, ...] | None = None  # x, y and perhaps heading on the page, which the robot is told

@@ -18,6 +18,8 @@ PORTS_TRIED = 20
 """Ports after the wanted one that are tried if it is taken."""
 SHORTEST_TOKEN = 16
 """Letters of a token for a server that others can reach."""
+FEW_FRAMES = 1 << 16
+"""Bytes that wait in the system for a client that is slow: what is in there is old when it arrives."""
 MOST_WAITING = 64
 """Requests that wait until the server takes them."""
 
@@ -83,6 +85,7 @@ def listen(host: str, port: int) -> socket.socket:
     for candidate in range(port, port + PORTS_TRIED) if port else (0,):
         opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, FEW_FRAMES)
         try:
             opened.bind((host, candidate))
             opened.listen(MOST_WAITING)  # who asks before the server is ready waits, and is not turned away

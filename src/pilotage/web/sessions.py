@@ -19,6 +19,8 @@ from pilotage.web.workers import WorkerError, start
 
 TOLD_FIRST = ("session", "world", "marks", "state", "frame", "done", "error")
 """Order in which a client gets what waits for it."""
+MOST_UNSEEN = 3
+"""Frames that a client gets before it has seen the first of them."""
 MOST_GOING = 8
 """Drives that go on at the same time."""
 MOST_KEPT = 16
@@ -33,10 +35,16 @@ Message = Mapping[str, object]
 
 
 class Client:
-    """Someone who watches: of each kind of message only the newest waits, so that nothing piles up."""
+    """Someone who watches: of each kind of message only the newest waits, so that nothing piles up.
+
+    A client that says which frames it has seen is never more than a few behind; to others frames are sent as
+    fast as their connection takes them.
+    """
 
     def __init__(self) -> None:
         self.scrubs = False  # looks at the past; frames of now are not for it
+        self._tells = False  # says what it has seen
+        self._unseen = 0  # frames that were sent and not seen yet
         self._waiting: dict[str, str] = {}
         self._something = asyncio.Event()
 
@@ -45,12 +53,24 @@ class Client:
         self._waiting[kind] = text
         self._something.set()
 
+    def saw(self) -> None:
+        """Note that a frame was seen."""
+        self._tells = True
+        self._unseen = max(self._unseen - 1, 0)
+        self._something.set()
+
     async def take(self) -> list[str]:
-        """Wait until there is something, and take all of it."""
-        await self._something.wait()
-        self._something.clear()
-        waiting, self._waiting = self._waiting, {}
-        return [waiting[kind] for kind in sorted(waiting, key=TOLD_FIRST.index)]
+        """Wait until there is something to send, and take all of it."""
+        while True:
+            await self._something.wait()
+            self._something.clear()
+            is_behind = self._tells and self._unseen >= MOST_UNSEEN
+            kinds = [
+                kind for kind in TOLD_FIRST if kind in self._waiting and (kind != "frame" or not is_behind)
+            ]
+            if kinds:
+                self._unseen += "frame" in kinds
+                return [self._waiting.pop(kind) for kind in kinds]
 
 
 class Session:

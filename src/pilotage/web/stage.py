@@ -21,7 +21,8 @@ from pilotage.simulation.made_real import make_real
 from pilotage.simulation.proportions import Proportions
 from pilotage.web.drawings import Json, Page, describe_drawing, read_sent
 from pilotage.web.frames import Truth, describe_world
-from pilotage.web.order import MadeRealOrder, Order, Place
+from pilotage.web.order import LogOrder, MadeRealOrder, Order, Place
+from pilotage.web.replay import Replay, replay
 
 Carry = Callable[[Array], Array]
 """Carries points (n, 2) from the drawing (y up) to the world [m]."""
@@ -58,6 +59,11 @@ class Stage:
         return self.simulator.settings.time_step
 
     @property
+    def is_over(self) -> bool:
+        """A simulated world does not end."""
+        return False
+
+    @property
     def goal_name(self) -> str:
         """What the goal is called."""
         return self.navigator.planner.goal.name or "the goal"
@@ -89,13 +95,15 @@ class Stage:
         self.navigator.set_goal(goal if isinstance(goal, str) else self.page.file_point(*goal))
 
 
-def set_stage(order: Order) -> Stage:
+def set_stage(order: Order) -> Stage | Replay:
     """Read drawing and world, and put the robot down; PilotageError or ValueError if that cannot be done."""
     settings = Settings()
     atlas = build_atlas(read_sent(order.drawing).sketch, settings.localizer.atlas)
     page = Page(atlas.sketch)
-    goal = goal_of(order, page)
     told = None if order.start is None else (*page.file_point(*order.start[:2]), *order.start[2:])
+    if isinstance(order.world, LogOrder):
+        return replay(atlas, page, order.world.path, told, order.seed)
+    goal = goal_of(order, page)
     if isinstance(order.world, MadeRealOrder):
         return made_real(order.world, atlas, page, goal=goal, told=told, seed=order.seed, settings=settings)
     warp = None if order.warp is None else read_warp(order.warp, atlas.sketch)

@@ -12,9 +12,8 @@ DOING = {
     Behavior.GO_THROUGH: "goes through the opening",
     Behavior.BACK_OUT: "backs out",
     Behavior.WAIT: "waits, something is in the way",
-    Behavior.REST: "rests",
 }
-"""What the robot does, by behavior."""
+"""What the robot does, by behavior; if it rests, or a log is replayed, it does nothing."""
 LIKELY = 0.1
 """Probability from which on a place is worth a word."""
 MOST_NAMED = 3
@@ -24,6 +23,8 @@ def sentence(step: Step, graph: CellGraph, goal: str) -> str:
     """Say where the robot believes to be and what it does; `goal` names where it is going."""
     if step.outcome is not None:
         return f"{step.outcome.value}: {step.reason}" if step.reason else step.outcome.value
+    if step.behavior is Behavior.REST:
+        return whereabouts(step.estimate, graph)
     doing = DOING[step.behavior]
     if step.behavior in (Behavior.CROSS, Behavior.GO_THROUGH):
         doing += f" to {name_of(step.next_cell_id, graph) if step.next_cell_id else goal}"

@@ -19,8 +19,8 @@ from pilotage.errors import PilotageError
 
 Result = TypeVar("Result")
 
-MEMORY = 6 << 30
-"""Bytes of address space of a worker that reads what a page sent; compiled code alone takes two."""
+MEMORY = 4 << 30
+"""Bytes of address space of a worker that reads what a page sent; libraries alone take half a gigabyte."""
 JOBS = 2
 """Drawings that are read at the same time; further ones wait."""
 

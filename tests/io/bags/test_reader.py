@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from bag_making import Maker, write_bag
+from benchmarks.lib.bag_making import KINDS, Maker, write_bag
+from benchmarks.lib.long_logs import four_formats
 
 from pilotage import FileError, Localizer, LocalizerSettings, open_log, open_map, worlds
 from pilotage.io.estimates import estimate_record
 from shared_data import DATA, needs_bags
 
-KINDS = (".bag", ".db3", ".mcap")
 HALF_TURN = math.sqrt(0.5)
 
 
@@ -173,42 +173,10 @@ def test_a_damaged_bag_is_refused_in_one_line_or_read(tmp_path, kind, damage):
 
 @pytest.mark.slow
 def test_the_same_log_gives_the_same_estimates_in_every_format(tmp_path):
-    """Stamps, odometry and ranges have few decimals, as drivers write them."""
-    source = open_log(worlds.LOG).readings[100:130]
-    first = source[0].odometry.odom_from_base
-    rows = []
-    for reading in source:
-        pose = first.inverse() @ reading.odometry.odom_from_base
-        ranges = np.where(np.isfinite(reading.scan.ranges), reading.scan.ranges, 30.0).round(3)
-        rows.append(
-            (round(reading.scan.stamp, 3), [round(v, 6) for v in (pose.x, pose.y, pose.theta)], ranges)
-        )
-    lines = [carmen_line(*row) for row in rows]
-    (tmp_path / "run.log").write_text("".join(lines), encoding="ascii")
-    logs = [open_log(tmp_path / "run.log")]
-    for kind in KINDS:
-        maker = Maker(kind)
-        messages = []
-        for stamp, pose, ranges in rows:
-            messages.append(("/odom", stamp, maker.odometry(stamp, pose, "laser")))
-            scan = maker.scan(stamp, ranges, angle_min=-1.570796, increment=0.008727)
-            messages.append(("/scan", stamp, scan))
-        logs.append(
-            open_log(
-                saved(tmp_path, messages, kind) if kind != ".mcap" else write_bag(tmp_path / "m", messages)
-            )
-        )
-    told = [estimates(log) for log in logs]
+    told = [estimates(open_log(path)) for path in four_formats(tmp_path)]
 
+    assert 4 == len(told)
     assert told[0] == told[1] == told[2] == told[3]
-
-
-def carmen_line(stamp, pose, ranges):
-    numbers, where = " ".join(f"{r:.3f}" for r in ranges), " ".join(f"{v:.6f}" for v in pose)
-    return (
-        f"ROBOTLASER1 0 -1.570796 3.141593 0.008727 30.0 0.01 0 {len(ranges)} {numbers} 0 {where} {where} "
-        f"0 0 0 0 0 {stamp} host {stamp}\n"
-    )
 
 
 def estimates(log):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bag_making import decoded
+from benchmarks.lib.bag_making import decoded
 from hypothesis import given
 from hypothesis import strategies as st
 

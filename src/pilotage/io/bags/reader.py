@@ -113,6 +113,7 @@ class Recording:
     broken: dict[int, str] = field(default_factory=dict)  # index of a scan, and what is wrong with it
     odometry: "array[float]" = field(default_factory=lambda: array("d"))  # stamp, recorded, x, y, theta
     base_frame: str = ""
+    _sound: object = None  # what the last sound scan was like
     edges: dict[str, Transform] = field(default_factory=dict)  # the first transform of each child
     moves: "dict[str, array[float]]" = field(default_factory=dict)  # of each child on /tf, as odometry
 
@@ -127,10 +128,13 @@ class Recording:
 
     def _add_scan(self, body: Any, recorded: float) -> None:  # noqa: ANN401  # of rosbags
         stamp = seconds(body.header.stamp)
-        try:
-            laser_scan(body, stamp, Mount(Pose2.identity()), beams=2)  # ranges may be any numbers
-        except ValueError as error:
-            self.broken[len(self.scan_stamps)] = str(error)
+        kind = body.angle_min, body.angle_increment, body.range_min, body.range_max, len(body.ranges) > 0
+        if kind != self._sound:  # ranges may be any numbers: scans alike but for them are sound alike
+            try:
+                laser_scan(body, stamp, Mount(Pose2.identity()), beams=2)
+                self._sound = kind
+            except ValueError as error:
+                self.broken[len(self.scan_stamps)] = str(error)
         self.laser_frame = self.laser_frame or frame_name(body.header.frame_id)
         self.scan_stamps.append(stamp)
         self.scan_recorded.append(recorded)

@@ -1,6 +1,7 @@
 """A laser scan of ROS as one of ours."""
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -46,6 +47,7 @@ def ranges_of(values: Any) -> Array:  # noqa: ANN401  # an array, or a list wher
     return ranges
 
 
+@lru_cache(maxsize=64)  # a laser has few of them
 def decimal(value: float) -> float:
     """Return the shortest decimal number that a number of single precision stands for.
 

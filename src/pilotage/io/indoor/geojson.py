@@ -3,6 +3,7 @@
 import io
 import json
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -48,7 +49,7 @@ def read_imdf(path: Path, level: str | None = None) -> Sheet:
                 for name in IMDF_FILES
                 if f"{name}.geojson" in members
             ]
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, ValueError, RuntimeError, OSError, EOFError) as error:
         raise FileError(f"an IMDF archive cannot be read ({str(error)[:100]})", path) from error
     if not collections:
         raise FileError("an IMDF archive must hold unit.geojson", path)

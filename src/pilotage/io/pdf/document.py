@@ -21,8 +21,8 @@ LARGEST = 200_000_000
 LARGEST_PAGE = 20_000.0
 """The longest side of a page [points]: 7 m."""
 
-PICTURE_SIDE = 3000
-"""Pixels of the longer side of a page that is painted: 9 pixels a millimetre of an A4 sheet."""
+PICTURE_SIDE = 2000
+"""Pixels of the longer side of a page that is painted: 7 pixels a millimetre of an A4 sheet."""
 
 
 @contextmanager
@@ -81,8 +81,8 @@ def page_names(document: "pypdfium2.PdfDocument") -> list[str]:
     return [str(number + 1) for number in range(len(document))]
 
 
-def page_picture(path: Path, page: str | None = None) -> NDArray[np.uint8]:
-    """Paint a page, (height, width, 3), `PICTURE_SIDE` pixels at its longer side.
+def page_picture(path: Path, page: str | None = None, side: int = PICTURE_SIDE) -> NDArray[np.uint8]:
+    """Paint a page, (height, width, 3), its longer side of so many pixels.
 
     Raises FileError if it cannot be read.
     """
@@ -90,7 +90,7 @@ def page_picture(path: Path, page: str | None = None) -> NDArray[np.uint8]:
         opened(path) as document,
         open_page(document, choose_page(page_names(document), page, path), path) as shown,
     ):
-        bitmap = shown.render(scale=PICTURE_SIDE / max(shown.get_size()), rev_byteorder=True)
+        bitmap = shown.render(scale=side / max(shown.get_size()), rev_byteorder=True)
         pixels = np.array(bitmap.to_numpy()[:, :, :3], dtype=np.uint8)
         bitmap.close()
     return pixels

@@ -1,5 +1,6 @@
 """From the coordinates of a page's content to those of the page as it is shown: points, y up."""
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ def shown_from_content(page: "pypdfium2.PdfPage") -> Affine2:
     return Affine2(linear, -corners.min(axis=0))
 
 
+@lru_cache(maxsize=1024)
 def affine(  # noqa: PLR0917  # the order of the six numbers in a file
     a: float, b: float, c: float, d: float, e: float, f: float
 ) -> Affine2:

@@ -12,6 +12,7 @@ import shapely
 from pilotage.errors import FileError
 from pilotage.geometry import Affine2, Array, Polyline
 from pilotage.interpretation.sheet import Color, Pen, Sheet
+from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
 from pilotage.io.pdf.clip import area_of, clipped_area, clipped_lines, contains
 from pilotage.io.pdf.document import open_page, opened, page_names
@@ -65,6 +66,7 @@ def read_pdf(path: Path, page: str | None = None) -> Sheet:
             with walk.builder.surviving("damaged words"):
                 for text in read_texts(shown, frame):
                     walk.builder.add_text(text)
+    walk.builder.marks[:] = filled_hatching(walk.builder.marks)
     scale = find_scale(text.text for text in walk.builder.texts)
     return walk.builder.build(
         page=(0.0, 0.0, width, height),
@@ -81,6 +83,7 @@ class Walk:
     paths: int = 0
     picture_area: float = 0.0  # [points^2]
     clips: dict[bytes, shapely.Geometry] = field(default_factory=dict)
+    maps: dict[tuple[Affine2, Affine2], Affine2] = field(default_factory=dict)
 
     def read_page(self, page: "pypdfium2.PdfPage", where: Where) -> None:
         """Read all objects of a page."""
@@ -121,7 +124,7 @@ class Walk:
 
     def read_path(self, handle: Handle, where: Where, source: str) -> None:
         """Read a path, cut to its clip."""
-        shown_from_object = where.shown_from_here @ matrix_of(handle)
+        shown_from_object = self.composed(where.shown_from_here, matrix_of(handle))
         found = [
             outline_through(shown_from_object @ points, closed=closed) for points, closed in path_of(handle)
         ]
@@ -137,6 +140,13 @@ class Walk:
             self.builder.add_mark(
                 part, pen=part_pen, fill=part_fill, names=names, groups=where.groups, source=source
             )
+
+    def composed(self, shown_from_here: Affine2, here_from_object: Affine2) -> Affine2:
+        """Compose two maps, of which a page has few."""
+        key = (shown_from_here, here_from_object)
+        if key not in self.maps:
+            self.maps[key] = shown_from_here @ here_from_object
+        return self.maps[key]
 
     def clip_of(self, handle: Handle, where: Where) -> shapely.Geometry | None:
         """Return the area that an object is cut to; None if it is not cut."""

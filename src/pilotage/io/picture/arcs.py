@@ -138,28 +138,24 @@ def fit_arc(pixels: Array, pen_width: float, radii: tuple[float, float]) -> Arc 
 
 def with_leaf(arc: Arc, ink: NDArray[np.bool_]) -> Arc:
     """Find the leaf of an arc in ink (height, width), and let the arc end at it."""
-    sweep = abs(arc.last - arc.first)
-    turns = np.linspace(-SWING, max(OPEN - sweep, 0.0), 24)
-    best, found = LEAF, arc
-    for first, last in ((arc.first, arc.last), (arc.last, arc.first)):
-        onward = np.sign(last - first)
-        for turn in turns:
-            angle = last + onward * float(turn)
-            share = ink_along(arc, angle, ink)
-            if share > best:
-                best, found = share, replace(arc, first=first, last=angle, has_leaf=True)
-    return found
+    sweep = arc.last - arc.first
+    turns = np.sign(sweep) * np.linspace(-SWING, max(OPEN - abs(sweep), 0.0), 24)
+    ends = np.concatenate([arc.last + turns, arc.first - turns])
+    shares = ink_along(arc, ends, ink)
+    best = int(shares.argmax())
+    if shares[best] < LEAF:
+        return arc
+    first = arc.first if best < len(turns) else arc.last
+    return replace(arc, first=first, last=float(ends[best]), has_leaf=True)
 
 
-def ink_along(arc: Arc, angle: float, ink: NDArray[np.bool_]) -> float:
-    """Measure how much of the spoke at an angle is ink, on it or a little to either side, 0 to 1."""
+def ink_along(arc: Arc, angles: Array, ink: NDArray[np.bool_]) -> Array:
+    """Measure how much of the spokes at some angles is ink, on them or a little to a side, 0 to 1, (n,)."""
     along = np.linspace(0.15, 0.9, 40) * arc.radius
-    thick = max(1.0, THICK * arc.radius)
-    best = 0.0
-    for side in (-thick, -thick / 2.0, 0.0, thick / 2.0, thick):
-        xs = arc.center[0] + along * np.cos(angle) - side * np.sin(angle)
-        ys = arc.center[1] + along * np.sin(angle) + side * np.cos(angle)
-        rows, columns = np.floor(ys).astype(np.int64), np.floor(xs).astype(np.int64)
-        inside = (rows >= 0) & (rows < ink.shape[0]) & (columns >= 0) & (columns < ink.shape[1])
-        best = max(best, float(np.mean(ink[rows[inside], columns[inside]])) if inside.all() else 0.0)
-    return best
+    sides = np.linspace(-1.0, 1.0, 5)[:, np.newaxis] * max(1.0, THICK * arc.radius)
+    cos, sin = np.cos(angles)[:, np.newaxis, np.newaxis], np.sin(angles)[:, np.newaxis, np.newaxis]
+    columns = np.floor(arc.center[0] + along * cos - sides * sin).astype(np.int64)
+    rows = np.floor(arc.center[1] + along * sin + sides * cos).astype(np.int64)
+    inside = (rows >= 0) & (rows < ink.shape[0]) & (columns >= 0) & (columns < ink.shape[1])
+    inked = inside & ink[np.where(inside, rows, 0), np.where(inside, columns, 0)]
+    return np.asarray(inked.mean(axis=2).max(axis=1))

@@ -3,15 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.io.picture.width import fat_parts
+from pilotage.io.picture.width import AreaWidths, fat_parts
 
 Mask = NDArray[np.bool_]
 
 DARK = 0.5
 """Ink with no color brighter than this share of paper is dark."""
 
-COLORED = 0.25
-"""Ink whose colors differ by this share of paper has a hue."""
+COLORED = 0.3
+"""Ink whose colors differ by this share of its contrast to paper has a hue."""
 
 HUES = 6
 """So many hues are told apart."""
@@ -20,22 +20,27 @@ WALLS = 0.05
 """If this share of fat ink is black or gray, walls are; what has a hue are floors, signs and titles."""
 
 
-def fat_ink(ink: Mask, flat: NDArray[np.float32], width: float) -> tuple[list[Mask], Mask]:
-    """Part ink that is wider than a width [pixels] by its colors on flattened paper (height, width, 3).
+def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[list[Mask], Mask]:
+    """Part ink that is wide enough for an area by its colors on flattened paper (height, width, 3).
 
     Returns the colors that may be walls' and the rest.
     """
-    if not fat_parts(ink, width).any():
+    if not np.isfinite(widths.dark):
         return [], np.zeros_like(ink)
-    dark = flat.max(axis=2) < DARK
-    colored = np.ptp(flat, axis=2) >= COLORED
-    black, gray, deep, light = (
-        fat_parts(ink & shade & hue, width) for hue in (~colored, colored) for shade in (dark, ~dark)
-    )
+    lightest, darkest = brightest(flat), 1.0 - brightest(1.0 - flat)
+    dark = lightest < DARK
+    colored = lightest - darkest >= COLORED * (1.0 - darkest)
+    black, deep = (fat_parts(ink & dark & hue, widths.dark) for hue in (~colored, colored))
+    gray, light = (fat_parts(ink & ~dark & hue, widths.pale) for hue in (~colored, colored))
     drawn = np.count_nonzero(black | gray)
     if drawn >= WALLS * (drawn + np.count_nonzero(deep | light)):
-        return [gray, black], deep | light
+        return [gray, black], fat_parts(ink & colored, widths.dark)
     return [gray, light, black, deep], np.zeros_like(ink)
+
+
+def brightest(flat: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the brightest of the three colors of each pixel."""
+    return np.maximum(np.maximum(flat[..., 0], flat[..., 1]), flat[..., 2])
 
 
 def hue_of(color: tuple[float, float, float]) -> int:
@@ -46,7 +51,7 @@ def hue_of(color: tuple[float, float, float]) -> int:
     """
     red, green, blue = color
     span = max(color) - min(color)
-    if span < COLORED:
+    if span < COLORED * (1.0 - min(color)) or span == 0.0:
         return -1
     if max(color) == red:
         turn = (green - blue) / span

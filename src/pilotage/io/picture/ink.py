@@ -19,6 +19,9 @@ RULED = 0.55
 ACROSS = 0.25
 """A line across the paper covers this share of its side, in one piece or with words and walls over it."""
 
+MANY = 6
+"""Ruled paper has at least so many lines; fewer are walls in another pen."""
+
 STEEPEST = 0.03
 """Ruled lines slant by at most this much on a straightened sheet."""
 
@@ -54,20 +57,23 @@ def find_ink(flat: NDArray[np.float32]) -> Ink:
 
 
 def is_ruled(faint: Mask) -> bool:
-    """Tell whether faint ink is mostly straight lines across the paper, along either side."""
+    """Tell whether faint ink is mostly straight lines across the paper, many of them, along either side."""
     total = int(np.count_nonzero(faint))
     if not total:
         return False
-    return (on_lines(faint) + on_lines(faint.T)) / total > RULED
+    found = [lines_across(faint), lines_across(faint.T)]
+    return max(lines for lines, _ in found) >= MANY and sum(ink for _, ink in found) > RULED * total
 
 
-def on_lines(faint: Mask) -> int:
-    """Count pixels on lines across the paper, as steep as most of them are."""
+def lines_across(faint: Mask) -> tuple[int, int]:
+    """Count lines across the paper, as steep as most of them are, and the pixels on them."""
     rows, columns = np.nonzero(faint)
     height, width = faint.shape
-    best = 0
+    best = 0, 0
     for slant in np.linspace(-STEEPEST, STEEPEST, SLANTS):
         row = np.round(rows + slant * columns).astype(np.int64) + height
         counts = np.bincount(row, minlength=3 * height)
-        best = max(best, int(counts[counts > ACROSS * width].sum()))
+        across = counts > ACROSS * width
+        lines = int(np.count_nonzero(across[1:] & ~across[:-1]))
+        best = max(best, (lines, int(counts[across].sum())), key=lambda found: found[1])
     return best

@@ -13,7 +13,7 @@ SMOOTH = 0.7
 """Noise of a camera is smoothed over this many pixels."""
 
 DARK_PAPER = 0.4
-"""Below this shade paper is a board, and drawn on in light."""
+"""Darker than this share of the lightest there is, paper is a board, and drawn on in light."""
 
 LEAST_LIGHT = 0.04
 """Shades below this are not told apart: the noise of a camera in the dark."""
@@ -27,7 +27,7 @@ def flatten(colors: NDArray[np.float32], *, is_photo: bool) -> NDArray[np.float3
     """
     from scipy.ndimage import gaussian_filter
 
-    if float(np.median(colors)) < DARK_PAPER:
+    if float(np.median(colors)) < DARK_PAPER * float(np.quantile(colors[::4, ::4], 0.995)):
         colors = 1.0 - colors
     radius = max(2, round(PEN * float(np.hypot(*colors.shape[:2]))))
     flat = np.empty_like(colors)

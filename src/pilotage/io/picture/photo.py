@@ -20,8 +20,11 @@ LEAST_SQUARE = 0.93
 MOST_EDGE = 0.05
 """Paper touches at most this share of the edge of the picture: all of it is in view."""
 
-FLAT_EDGE = 0.4
+FLAT_EDGE = 0.55
 """The edge of a drawing by a program has one color for at least this share; no camera sees that."""
+
+ONE_COLOR = 0.012
+"""Colors that differ by no more than this in each channel are one: files lose some of it."""
 
 INSET = 0.012
 """The rim of the paper is left out by this share of its shorter side: shadows and crooked cuts."""
@@ -39,8 +42,8 @@ class Straightened:
 def is_photo(colors: NDArray[np.float32]) -> bool:
     """Tell a camera's picture from a program's: no color fills its edge."""
     edge = np.concatenate([colors[0], colors[-1], colors[:, 0], colors[:, -1]])
-    levels = np.round(edge * 24.0).astype(np.int64) @ (1, 100, 10_000)
-    return bool(np.unique(levels, return_counts=True)[1].max() < FLAT_EDGE * len(levels))
+    alike = (np.abs(edge - np.median(edge, axis=0)) <= ONE_COLOR).all(axis=1)
+    return bool(alike.mean() < FLAT_EDGE)
 
 
 def find_paper(colors: NDArray[np.float32]) -> Array | None:

@@ -13,7 +13,7 @@ from pilotage.io.picture.light import flatten
 from pilotage.io.picture.photo import find_paper, is_photo, straighten
 from pilotage.io.picture.text import find_words
 from pilotage.io.picture.trace import Area, Line, trace
-from pilotage.io.picture.width import least_area_width, widths_of
+from pilotage.io.picture.width import area_widths, depth_of, width_at
 
 ENOUGH = 2_000_000
 """A picture of more pixels than this is read at a half, a third, ... of its size."""
@@ -62,12 +62,13 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
     flat = flatten(working, is_photo=photo)
     ink = find_ink(flat)
     middle = skeletonize(ink.mask)
-    widths = widths_of(ink.mask, middle)
+    depth = depth_of(ink.mask)
+    widths = width_at(depth[middle])
     pen_width = float(np.median(widths)) if widths.size else 1.0
     words = find_words(ink.mask, middle, pen_width)
     drawn = ink.mask & ~words
-    width = least_area_width(widths_of(drawn, middle & drawn), pen_width, float(np.hypot(*drawn.shape)))
-    areas, lines = trace(drawn, flat, pen_width, width)
+    wide = area_widths(width_at(depth[middle & ~words]), pen_width, float(np.hypot(*drawn.shape)))
+    areas, lines = trace(drawn, flat, depth, pen_width, wide)
     return Sheet(
         marks_of(areas, lines, Plane(scale, corner)),
         y_down=True,

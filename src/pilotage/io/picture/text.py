@@ -35,18 +35,20 @@ def find_words(ink: Mask, middle: Mask, pen_width: float) -> Mask:
     labels = label(ink, connectivity=2)
     islands = regionprops(labels)
     boxes = np.array([island.bbox for island in islands], dtype=np.float64)
-    filled = np.array([island.area_filled for island in islands], dtype=np.float64)
+    areas = np.array([island.area for island in islands], dtype=np.float64)
     lengths = np.bincount(labels[middle], minlength=len(islands) + 1)[1:]
     sides = boxes[:, 2:] - boxes[:, :2]
     size = sides.max(axis=1)
     curl = lengths / np.maximum(size - pen_width, 1.0)
     small = size <= LETTER * diagonal
     low = (sides.min(axis=1) <= LETTER * diagonal) & (size <= WORD * diagonal)
-    joined_up = low & ~small & (filled / sides.prod(axis=1) < BOX)
-    letters = (small | joined_up) & (curl > CURLED)
+    joined_up = low & ~small & (curl > CURLED)
+    for index in np.nonzero(joined_up)[0]:
+        joined_up[index] = islands[index].area_filled < BOX * sides[index].prod()
+    letters = (small & (curl > CURLED)) | joined_up
     lone = letters & small & (neighbors(boxes, letters) == 0)
     words = letters & ~lone
-    tiny = small & ((filled < BOX * sides.prod(axis=1)) | (sides.min(axis=1) < 2.0 * pen_width))
+    tiny = small & ((areas < BOX * sides.prod(axis=1)) | (sides.min(axis=1) < 2.0 * pen_width))
     for _ in range(2):  # strokes and dots beside letters, and those beside them, as in "ill"
         words |= tiny & (neighbors(boxes, words) > 0)
     words |= size <= max(2.0 * pen_width, SPECK * diagonal)

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
-from pilotage.io.picture.colors import DARK, fat_ink, hue_of
+from pilotage.io.picture.colors import DARK, brightest, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
+from pilotage.io.picture.width import AreaWidths, width_at
 from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
@@ -43,24 +44,25 @@ class Area:
 
 
 def trace(
-    ink: Mask, flat: NDArray[np.float32], pen_width: float, width: float
+    ink: Mask,
+    flat: NDArray[np.float32],
+    depth: NDArray[np.float32],
+    pen_width: float,
+    widths: AreaWidths,
 ) -> tuple[list[Area], list[Line]]:
-    """Trace ink on flattened paper (height, width, 3), what is wider than a width [pixels] as areas.
+    """Trace ink on flattened paper (height, width, 3), what is wide as areas; `depth` is that of all ink.
 
     Each color of fat ink is traced by itself.
     """
-    from scipy.ndimage import distance_transform_edt
-
-    fat, grounds = fat_ink(ink, flat, width)
-    black = ink & (flat.max(axis=2) < DARK)
+    fat, grounds = fat_ink(ink, flat, widths)
+    black = ink & (brightest(flat) < DARK)
     thin = (ink & ~rimmed(grounds)) | (black & ~grounds)
     for color in fat:
         thin &= ~rimmed(color)
-    depth = distance_transform_edt(np.pad(thin, 1))[1:-1, 1:-1]
     lines = []
     for points in lines_of(thin, ink, pen_width):
         rows, columns = pixels_along(points, ink.shape)
-        broad = float(max(1.0, 2.0 * np.median(depth[rows, columns]) - 0.5))
+        broad = float(np.median(width_at(depth[rows, columns])))
         lines.append(Line(points, broad, color_of(flat[rows, columns])))
     return [area for color in fat for area in areas_of(color, flat)], lines
 

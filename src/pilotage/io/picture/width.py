@@ -1,5 +1,8 @@
 """How wide lines are, and from which width on ink is an area: thick walls beside thin lines."""
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,30 +23,48 @@ EACH = 0.1
 THINNEST = 3.5
 """A thick line is wider than this [pixels]: below it widths cannot be told."""
 
-CORNER = 1.5
-"""The corner of an area is so many times as far from where a disk fits as its sides are."""
 
-
-def widths_of(ink: Mask, middle: Mask) -> NDArray[np.float64]:
-    """Measure ink at each pixel of its middle lines [pixels], (n,)."""
+def depth_of(ink: Mask) -> NDArray[np.float32]:
+    """Measure how far ink is from its edge [pixels], (height, width)."""
     from scipy.ndimage import distance_transform_edt
 
-    return np.asarray(np.maximum(1.0, 2.0 * distance_transform_edt(ink)[middle] - 0.5))
+    rows, columns = (np.nonzero(ink.any(axis=axis))[0] for axis in (1, 0))
+    depth = np.zeros(ink.shape, dtype=np.float32)
+    if rows.size:
+        box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+        depth[box] = distance_transform_edt(np.pad(ink[box], 1))[1:-1, 1:-1]
+    return depth
 
 
-def least_area_width(widths: NDArray[np.float64], pen_width: float, diagonal: float) -> float:
-    """Tell from which width on ink is an area [pixels]."""
+def width_at(depth: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the width of ink that is so far from its edge in its middle [pixels]."""
+    return np.asarray(np.maximum(np.float32(1.0), 2.0 * depth - 0.5), dtype=np.float32)
+
+
+@dataclass(frozen=True, slots=True)
+class AreaWidths:
+    """From which width on ink is an area [pixels]."""
+
+    dark: float
+    pale: float  # infinite if there are none; a blurred line is pale, and wider than it was drawn
+
+
+def area_widths(widths: NDArray[np.float32], pen_width: float, diagonal: float) -> AreaWidths:
+    """Tell areas from lines by the widths of lines (n,) [pixels]; thick dark lines beside thin are areas."""
     from skimage.filters import threshold_otsu
 
     fat = max(FAT * pen_width, LEAST_FAT * diagonal)
+    if not (widths > fat).any():
+        fat = math.inf
     lines = np.log(widths[widths <= fat])
     if not lines.size or float(np.ptp(lines)) == 0.0:
-        return fat
+        return AreaWidths(fat, fat)
     between = float(threshold_otsu(lines))
     thick, thin = lines[lines > between], lines[lines <= between]
     if min(len(thick), len(thin)) < EACH * len(lines) or np.exp(between) < THINNEST:
-        return fat
-    return float(np.exp(between)) if thick.mean() - thin.mean() > np.log(TWO_PENS) else fat
+        return AreaWidths(fat, fat)
+    two_pens = thick.mean() - thin.mean() > np.log(TWO_PENS)
+    return AreaWidths(float(np.exp(between)) if two_pens else fat, fat)
 
 
 def fat_parts(ink: Mask, width: float) -> Mask:
@@ -51,13 +72,13 @@ def fat_parts(ink: Mask, width: float) -> Mask:
 
     Where two lines cross they are wide, too, but over no length.
     """
-    from scipy.ndimage import distance_transform_edt
+    from scipy.ndimage import maximum_filter
     from skimage.measure import label, regionprops
 
-    core = distance_transform_edt(np.pad(ink, 1))[1:-1, 1:-1] > width / 2.0
+    core = depth_of(ink) > width / 2.0
     labels = label(core, connectivity=2)
     long = [max(part.image.shape) > width for part in regionprops(labels)]
-    core = np.concatenate([[False], long])[labels] if long else core
-    if not core.any():
+    if not any(long):
         return np.zeros_like(ink)
-    return np.asarray(ink & (distance_transform_edt(~core) <= CORNER * width / 2.0 + 1.0))
+    core = np.concatenate([[False], long])[labels]
+    return np.asarray(ink & maximum_filter(core, 2 * int(np.ceil(width / 2.0)) + 3))

@@ -1,6 +1,6 @@
 """Tell rooms from yards and solid blocks: strokes enclose all three alike (Wolter 2001, section 4.1)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -11,6 +11,9 @@ from pilotage.maps.schematic import Label
 
 YARD_MOUTH, YARD_SHARE = 0.8, 0.12
 """A yard opens to the outside with these shares of its own width and of its outline (decision 0011)."""
+
+FRONT_DOOR = 0.6
+"""An opening to the outside is a door if it is narrower than this share of the region's own width."""
 
 BLOCK_OUTSIDE = 0.2
 """A region without an opening is solid unless a larger share of its outline faces the outside."""
@@ -25,16 +28,34 @@ class Openings:
 
 
 def drop_outdoors(
-    space: FreeSpace, regions: NDArray[np.int64], labels: tuple[Label, ...] = (), *, solids_known: bool = False
+    space: FreeSpace,
+    regions: NDArray[np.int64],
+    labels: tuple[Label, ...] = (),
+    *,
+    solids_known: bool = False,
 ) -> NDArray[np.int64]:
     """Drop yards and solid blocks among the regions (p,) of pieces: -1.
 
     A closed region that a label names is a room, and so is each one where solids are known, or where no
-    region has a door: then doors were not drawn at all.
+    region has a door: then doors were not drawn at all. A region that opens to the outside alone is a room
+    if it does so by doors, and a label names it or solids are known.
     """
     if not space.outside.any():
         return regions
-    kept = np.where(np.isin(regions, find_yards(space, regions)), -1, regions)
+    kept = regions
+    while True:  # what opens wide to a yard is a yard, too
+        yards = [
+            number
+            for number in find_yards(space, kept, only_wide=kept is not regions)
+            if not (
+                (solids_known or is_named(space, kept == number, labels)) and has_front(space, kept, number)
+            )
+        ]
+        if not yards:
+            break
+        found = np.isin(kept, yards)
+        space = replace(space, outside=space.outside | found)
+        kept = np.where(found, -1, kept)
     if solids_known:
         return kept
     blocks = [number for number in find_blocks(space, kept) if not is_named(space, kept == number, labels)]
@@ -58,8 +79,17 @@ def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Op
     return Openings(widths[exits], widths[doors])
 
 
-def find_yards(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
-    """Find regions that belong to the outside: open to it alone, or far wider than to any other region."""
+def has_front(space: FreeSpace, regions: NDArray[np.int64], number: int) -> bool:
+    """Tell whether a region opens to the outside by doors alone: far narrower than itself."""
+    widest = openings_of(space, regions, number).exits.max()
+    return bool(widest < FRONT_DOOR * space.tessellation.reaches[regions == number].max())
+
+
+def find_yards(space: FreeSpace, regions: NDArray[np.int64], *, only_wide: bool = False) -> list[int]:
+    """Find regions that belong to the outside: open to it alone, or far wider than to any other region.
+
+    `only_wide` leaves out those that open to the outside alone, but not widely.
+    """
     yards = []
     for number in np.unique(regions[regions >= 0]):
         openings = openings_of(space, regions, number)
@@ -70,7 +100,10 @@ def find_yards(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
         widest = openings.exits.max()
         outline = shapely.length(shapely.union_all(space.tessellation.pieces[members]))
         is_wide_open = widest >= YARD_MOUTH * reach and openings.exits.sum() >= YARD_SHARE * outline
-        if len(openings.doors) == 0 or (is_wide_open and YARD_MOUTH * widest > openings.doors.max()):
+        is_apart = len(openings.doors) == 0
+        if (is_apart and not only_wide) or (
+            is_wide_open and (is_apart or YARD_MOUTH * widest > openings.doors.max())
+        ):
             yards.append(int(number))
     return yards if len(yards) < len(np.unique(regions[regions >= 0])) else []
 

@@ -1,0 +1,172 @@
+"""`pilotage ros2`: localize and drive a live robot of ROS 2."""
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.exits import signals_held
+from pilotage.cli.places import finite_numbers, parse_pose
+from pilotage.cli.terminal import busy, say
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
+    from pilotage.ros.robot import LiveRobot
+    from pilotage.ros.session import Session
+
+REPORT_EVERY = 5.0
+"""[s] between two lines on how it goes."""
+
+
+def ros2(
+    drawing: Map,
+    *,
+    goal: Annotated[
+        str | None, typer.Option(metavar="NAME|X,Y", help="Where to drive to, on the drawing.")
+    ] = None,
+    drive: Annotated[
+        bool, typer.Option("--drive", help="Send commands to the wheels; without it, none is sent.")
+    ] = False,
+    localize_only: Annotated[
+        bool, typer.Option("--localize-only", help="Stand in for AMCL: hear no goals, send no commands.")
+    ] = False,
+    radius: Annotated[
+        float | None, typer.Option(metavar="M", help="Radius of the robot [m]; needed to drive.")
+    ] = None,
+    speed: Annotated[
+        float | None, typer.Option(metavar="M/S", help="Fastest speed [m/s]; needed to drive.")
+    ] = None,
+    turn_rate: Annotated[
+        float | None, typer.Option(metavar="RAD/S", help="Fastest turn [rad/s]; needed to drive.")
+    ] = None,
+    braking: Annotated[
+        float | None,
+        typer.Option(metavar="M/S2", help="Deceleration to rely on [m/s2]; needed to drive."),
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option(metavar="X,Y,HEADING_DEG", help="Where the robot starts on the drawing.")
+    ] = None,
+    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
+    domain: Annotated[
+        int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")
+    ] = 0,
+    namespace: Annotated[str, typer.Option(help="Namespace of the robot's topics.")] = "",
+    scan_topic: Annotated[str, typer.Option("--scan-topic", help="Topic of the scans.")] = "scan",
+    odometry_topic: Annotated[str, typer.Option("--odom-topic", help="Topic of the odometry.")] = "odom",
+    command_topic: Annotated[str, typer.Option("--cmd-topic", help="Topic of the commands.")] = "cmd_vel",
+    stamped: Annotated[
+        bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
+    ] = False,
+    layer: Layers = None,
+    label: Labels = None,
+    page: Page = None,
+    shading: Shade = "recognized",
+    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+) -> None:
+    """Localize a live robot of ROS 2 on a drawing, and drive it if that is wanted.
+
+    No ROS is needed on this machine: it joins the robot's domain by DDS (extra `ros2`).
+    Without `--drive` no wheel turns. With it, size and limits of the robot must be given.
+    Goals are heard on *goal_pose* and *pilotage/goal*, starts on *initialpose*.
+    Ctrl-C stops the robot and ends.
+
+    **Examples:**
+
+    - `pilotage ros2 office.svg --localize-only`
+    - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
+    """
+    limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
+    check(limits, drive=drive, localize_only=localize_only, goal=goal)
+    from pilotage.ros.node import Node
+    from pilotage.ros.robot import LiveRobot, Topics
+
+    sketch = open_drawing(drawing, layer, label, page, shading).sketch
+    known = None if start is None else parse_pose(start, "--start")
+    session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale)
+    topics = Topics(scan_topic, odometry_topic, command_topic, stamped, drive, localize_only)
+    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
+    if goal is not None:
+        numbers = finite_numbers(goal)
+        refusal = session.set_goal((numbers[0], numbers[1]) if len(numbers) == 2 else goal)
+        if refusal:
+            raise typer.BadParameter(refusal, param_hint="--goal")
+    say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
+    with standing_at_the_end(robot):
+        spin(robot, ends=goal is not None)
+
+
+def check(limits: dict[str, float | None], *, drive: bool, localize_only: bool, goal: str | None) -> None:
+    """Reject options that contradict each other, and a drive by guessed limits."""
+    for option, value in limits.items():
+        if value is not None and not 0.0 < value < float("inf"):
+            raise typer.BadParameter(f"it must be positive, got {value}", param_hint=option)
+        if drive and value is None:
+            raise typer.BadParameter("it must be given to drive", param_hint=option)
+    if localize_only and (drive or goal is not None):
+        raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
+
+
+def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Settings":
+    """Read settings; size and limits of the command line override theirs."""
+    from dataclasses import replace
+
+    from pilotage.config import Settings, read_settings
+
+    settings = Settings() if path is None else read_settings(path)
+    names = {"--speed": "speed", "--turn-rate": "turn_rate", "--braking": "braking"}
+    steering = {names[option]: value for option, value in limits.items() if option in names and value}
+    navigator = replace(settings.navigator, steering=replace(settings.navigator.steering, **steering))
+    if limits["--radius"]:
+        navigator = replace(navigator, radius=limits["--radius"])
+    return replace(settings, navigator=navigator)
+
+
+def open_session(
+    sketch: object,
+    settings: "Settings",
+    seed: int,
+    start: tuple[float, float, float] | None,
+    scale: float | None,
+) -> "Session":
+    """Prepare the drawing, and compile what a step needs before the robot waits for it."""
+    from pilotage.errors import FileError
+    from pilotage.maps import SchematicMap, build_atlas
+    from pilotage.ros.session import Session
+    from pilotage.ros.warm_up import warm_up
+
+    assert isinstance(sketch, SchematicMap)
+    with busy("Reading the drawing"), signals_held():
+        try:
+            atlas = build_atlas(sketch, settings.localizer.atlas)
+            warm_up(atlas, settings)
+            return Session(
+                atlas, (settings.localizer, settings.navigator), seed=seed, start=start, scale=scale
+            )
+        except ValueError as error:
+            raise FileError(str(error), sketch.source) from error
+
+
+@contextlib.contextmanager
+def standing_at_the_end(robot: "LiveRobot") -> Iterator[None]:
+    """Stop the robot however the block ends."""
+    try:
+        yield
+    finally:
+        robot.stop()
+
+
+def spin(robot: "LiveRobot", *, ends: bool) -> None:
+    """Go on until the drive is over, if there was a goal from the beginning, else until Ctrl-C."""
+    import time
+
+    said = time.monotonic()
+    while not (ends and robot.is_over):
+        robot.spin_once()
+        if robot.told is not None and time.monotonic() - said >= REPORT_EVERY:
+            said = time.monotonic()
+            values = robot.told.belief.values
+            say(f"pilotage: {values['status']} in {values['place']}, p = {values['probability']}")

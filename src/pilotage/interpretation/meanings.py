@@ -1,0 +1,84 @@
+"""Say what each mark was taken for, and why."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from pilotage.interpretation.doors import Door
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.sheet import Color, Role, Sheet
+from pilotage.interpretation.walls import Walls, is_floor
+
+ALONG = 0.001
+"""A mark that comes this near to a wall is part of it, as a share of the drawing's diagonal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What a mark was taken for, and why."""
+
+    role: Role
+    reason: str  # a few words, as in "leaf and quarter arc" or "its layer is named 'A-FURN'"
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """What the steps of the interpretation found, by number of the mark in its sheet."""
+
+    told: Mapping[int, Meaning]  # by a person, or by the words of this program
+    papers: AbstractSet[int]  # sheets of paper
+    letters: AbstractSet[int]  # letters that were turned into outlines
+    named: Mapping[int, Meaning]  # by what people call their layers, and no wall
+    visible: Sequence[Seen]  # before doors were taken out
+    left: Sequence[Seen]  # after
+    doors: Sequence[Door]
+    walls: Walls
+    ground: Color
+    diagonal: float  # [drawing units]
+
+
+def find_meanings(sheet: Sheet, found: Findings) -> tuple[Meaning, ...]:
+    """Give each mark of a sheet its meaning."""
+    meanings = {
+        **dict.fromkeys(range(len(sheet.marks)), Meaning(Role.IGNORE, "painted over")),
+        **dict.fromkeys(found.papers, Meaning(Role.IGNORE, "the sheet below the drawing")),
+        **dict.fromkeys(found.letters, Meaning(Role.LABEL, "letters as outlines")),
+        **dict(meanings_of_visible(sheet, found)),
+        **found.named,
+        **found.told,
+    }
+    return tuple(meanings[number] for number in range(len(sheet.marks)))
+
+
+def meanings_of_visible(sheet: Sheet, found: Findings) -> Iterator[tuple[int, Meaning]]:
+    """Tell what the marks are that can be seen."""
+    arcs = {found.visible[place].number for door in found.doors for place in door.marks}
+    left = {mark.number for mark in found.left if not (mark.line.is_empty and mark.area.is_empty)}
+    walls = found.walls
+    thick = shapely.buffer(walls.solid, ALONG * found.diagonal)
+    thin = None if walls.lines is None else shapely.buffer(walls.lines, ALONG * found.diagonal)
+    shapes = np.array([shapely.union(mark.line, mark.area) for mark in found.visible], dtype=object)
+    shapely.prepare(thick)
+    in_thick = shapely.intersects(thick, shapes)
+    in_thin = np.zeros(len(shapes), dtype=bool) if thin is None else shapely.intersects(thin, shapes)
+    for mark, is_thick, is_thin in zip(found.visible, in_thick.tolist(), in_thin.tolist(), strict=True):
+        drawn = sheet.marks[mark.number]
+        if mark.number in arcs:
+            yield mark.number, Meaning(Role.DOOR, "the arc of a door")
+        elif mark.number not in left:
+            yield mark.number, Meaning(Role.DOOR, "the leaf or threshold of a door")
+        elif drawn.fill is not None and not mark.area.is_empty and drawn.fill in walls.colors:
+            yield mark.number, Meaning(Role.WALL, "painted in the color of walls")
+        elif drawn.fill is not None and drawn.pen is None and is_floor(drawn.fill, found.ground):
+            yield mark.number, Meaning(Role.FLOOR, "a pale fill without a line")
+        elif walls.lines is None:
+            yield mark.number, Meaning(Role.WALL, "a stroke")
+        elif is_thick:
+            yield mark.number, Meaning(Role.WALL, "a face of a thick wall, or within it")
+        elif is_thin:
+            yield mark.number, Meaning(Role.WALL, "a line that parts rooms")
+        else:
+            yield mark.number, Meaning(Role.FURNITURE, "beside the walls, and parts no rooms")

@@ -1,0 +1,127 @@
+"""One robot on one drawing: readings, starts and goals in; beliefs and commands out. It knows no network."""
+
+import math
+from dataclasses import dataclass, replace
+
+from pilotage.errors import PilotageError
+from pilotage.geometry import Pose2, Twist
+from pilotage.io.bags.belief import Belief, MapFrame
+from pilotage.localization import Estimate, Localizer, LocalizerSettings
+from pilotage.maps import Atlas
+from pilotage.navigation import Navigator, NavigatorSettings, Step
+from pilotage.navigation.dead_reckoning import DeadReckoning
+from pilotage.perception import LaserScan, Odometry, Reading
+
+STILL = Twist(0.0, 0.0)
+
+SETTLED = 0.9
+"""Probability of a place from which on the scale there becomes that of the frame `map`."""
+
+OTHER_SCALE = 0.02
+"""Share by which a scale must differ for the frame `map` to be changed."""
+
+Goal = str | tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """What came of a reading."""
+
+    belief: Belief
+    map_from_odom: Pose2
+    command: Twist
+    step: Step | None  # None without a goal
+
+
+class Session:
+    """Localizes a robot, and drives it to a goal if it has one; raises as `Localizer` and `Navigator` do."""
+
+    def __init__(
+        self,
+        atlas: Atlas,
+        settings: tuple[LocalizerSettings, NavigatorSettings],
+        *,
+        seed: int = 0,
+        start: tuple[float, float, float] | None = None,
+        scale: float | None = None,
+    ) -> None:
+        self._settings, self._seed, self._scale = settings, seed, scale
+        self._localizer = Localizer(atlas, settings[0], seed=seed, start=start, scale=scale)
+        self.atlas = self._localizer.atlas
+        self._navigator: Navigator | None = None
+        self._reckoning = DeadReckoning(self._localizer)
+        known = scale or (1.0 / atlas.sketch.metres_per_unit if atlas.sketch.metres_per_unit else None)
+        self.frame = MapFrame(atlas.sketch, known or math.exp(self.atlas.log_scale))
+        self._is_settled = known is not None
+        self._shift, self._last_stamp = 0.0, -math.inf  # [s] so that time never runs backwards in here
+        self.goal: Goal | None = None
+
+    def set_goal(self, goal: Goal | None) -> str:
+        """Drive there from now on, or stop; return why not if it cannot be, else nothing."""
+        if goal is None:
+            self.goal, self._navigator = None, None
+            self._reckoning = DeadReckoning(self._localizer)
+            return ""
+        try:
+            self._navigator = Navigator(self._localizer, goal, self._settings[1])
+        except (PilotageError, ValueError) as error:
+            return f"{goal} is no goal: {error}"
+        self.goal = goal
+        return ""
+
+    def set_start(self, pose: Pose2) -> str:
+        """Begin anew at a pose of the frame `map`; return why not if it cannot be, else nothing."""
+        try:
+            self._localizer = Localizer(
+                self.atlas,
+                self._settings[0],
+                seed=self._seed,
+                start=self.frame.to_file(pose),
+                scale=self._scale,
+            )
+        except (PilotageError, ValueError) as error:
+            return f"this is no start: {error}"
+        self._reckoning = DeadReckoning(self._localizer)
+        return self.set_goal(self.goal)
+
+    def goal_at(self, pose: Pose2) -> tuple[float, float]:
+        """Return a pose of the frame `map` as a goal."""
+        x, y, _ = self.frame.to_file(pose)
+        return x, y
+
+    def update(self, reading: Reading) -> Told:
+        """Take a reading in."""
+        scan, odometry = self._in_our_time(reading)
+        step = None
+        if self._navigator is not None:
+            step = self._navigator.step(scan, odometry)
+            estimate = self._navigator.position.estimate
+        else:
+            self._reckoning.update(scan, odometry)
+            estimate = self._reckoning.estimate
+        self._settle(estimate)
+        belief = Belief.of_estimate(estimate, self.frame, reading.scan.stamp)
+        if step is not None:
+            told = {"behavior": step.behavior.value, "outcome": step.outcome.value if step.outcome else ""}
+            belief = replace(belief, values={**belief.values, **told, "reason": step.reason})
+        map_from_odom = belief.pose @ reading.odometry.odom_from_base.inverse()
+        return Told(belief, map_from_odom, STILL if step is None else step.command, step)
+
+    def _in_our_time(self, reading: Reading) -> tuple[LaserScan, Odometry]:
+        """Shift stamps where the robot's clock was set back."""
+        stamp = reading.scan.stamp + self._shift
+        if stamp < self._last_stamp:
+            self._shift += self._last_stamp - stamp
+            stamp = self._last_stamp
+        self._last_stamp = stamp
+        if self._shift == 0.0:
+            return reading.scan, reading.odometry
+        return replace(reading.scan, stamp=stamp), replace(reading.odometry, stamp=stamp)
+
+    def _settle(self, estimate: Estimate) -> None:
+        """Give the frame `map` the scale of the first place that is sure; it then stays."""
+        if self._is_settled or estimate.probability < SETTLED:
+            return
+        self._is_settled = True
+        if abs(math.log(estimate.scale / self.frame.scale)) > OTHER_SCALE:
+            self.frame = MapFrame(self.atlas.sketch, estimate.scale)

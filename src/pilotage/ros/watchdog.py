@@ -1,0 +1,37 @@
+"""When a robot must stand: what it knows of its surroundings is too old, or not to be trusted."""
+
+from dataclasses import dataclass, field
+
+NO_SCAN = 0.3
+"""[s] A robot that has not heard a scan for so long stands."""
+
+CLOCK_JUMP = 1.0
+"""[s] Stamps of scans that differ from the time in between by more than this are a clock that jumped."""
+
+
+@dataclass
+class Watchdog:
+    """Hears of scans, and says why the robot must stand; empty if it may move. Times are monotonic [s]."""
+
+    heard: float | None = None  # when the last scan came
+    stamp: float | None = None  # what it was stamped
+    trouble: str = ""  # of the last scan
+    limits: tuple[float, float] = field(default=(NO_SCAN, CLOCK_JUMP))
+
+    def hear(self, now: float, stamp: float, trouble: str = "") -> None:
+        """Take note of a scan, and of what is wrong with it."""
+        self.trouble = trouble
+        if self.heard is not None and self.stamp is not None:
+            passed, stamped = now - self.heard, stamp - self.stamp
+            if stamped <= -self.limits[1] or stamped - passed > self.limits[1]:
+                self.trouble = f"the clock jumped by {stamped - passed:+.1f} s"
+        self.heard, self.stamp = now, stamp
+
+    def reason(self, now: float) -> str:
+        """Say why the robot must stand."""
+        if self.heard is None:
+            return "no scan has come"
+        if self.trouble:
+            return self.trouble
+        silence = now - self.heard
+        return f"no scan for {silence:.1f} s" if silence > self.limits[0] else ""

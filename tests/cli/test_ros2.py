@@ -1,0 +1,24 @@
+"""`pilotage ros2` refuses what must not be guessed before it touches the network."""
+
+import pytest
+
+from pilotage import worlds
+
+DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
+
+
+@pytest.mark.parametrize(
+    ("words", "rule"),
+    [
+        (DRIVE, "must be given to drive"),
+        ((*DRIVE, "--braking", "-1"), "it must be positive, got -1.0"),
+        (("--localize-only", "--drive"), "must be given to drive"),
+        (("--localize-only", "--goal", "kitchen"), "excludes --drive and --goal"),
+        (("--domain", "900"), "less than or equal to 232"),
+    ],
+)
+def test_a_drive_by_guessed_limits_is_refused(pilotage, words, rule):
+    outcome = pilotage("ros2", worlds.OFFICE.careful, *words)
+
+    assert 2 == outcome.code
+    assert rule in " ".join(outcome.err.replace("│", " ").split())

@@ -1,0 +1,168 @@
+import json
+import math
+import zipfile
+
+import numpy as np
+import pytest
+
+from pilotage.errors import FileError
+from pilotage.io.indoor import read_geojson, read_imdf, read_osm
+from shared_data import VECTOR, needs_vector
+
+METRE = math.degrees(1.0 / 6_371_008.8)
+"""A metre at the equator [deg]."""
+
+BOX = [(0, 0), (4, 0), (4, 3), (0, 3), (0, 0)]
+NEXT = [(4, 0), (8, 0), (8, 3), (4, 3), (4, 0)]
+
+
+def feature(points, kind="Polygon", feature_type=None, feature_id=None, **properties):
+    degrees = [[x * METRE, y * METRE] for x, y in points]
+    coordinates = {"Polygon": [degrees], "LineString": degrees, "Point": degrees[0]}[kind]
+    found = {"type": "Feature", "properties": properties}
+    found["geometry"] = {"type": kind, "coordinates": coordinates}
+    return found | {"feature_type": feature_type, "id": feature_id}
+
+
+def collection(*features):
+    return json.dumps({"type": "FeatureCollection", "features": features})
+
+
+def read(folder, *features, level=None):
+    path = folder / "plan.geojson"
+    path.write_text(collection(*features))
+    return read_geojson(path, level)
+
+
+def length(sheet):
+    return sum(outline.length for mark in sheet.marks for outline in mark.outlines)
+
+
+def test_rooms_share_a_wall_and_bear_their_names_in_metres(tmp_path):
+    sheet = read(
+        tmp_path, feature(BOX, indoor="room", name="Kitchen", level="0"), feature(NEXT, indoor="room")
+    )
+    assert sheet.metres_per_unit == 1.0
+    assert length(sheet) == pytest.approx(3 * 3 + 4 * 4, abs=0.01)
+    (text,) = sheet.texts
+    assert text.text == "Kitchen"
+    assert text.position == pytest.approx((2, 1.5), abs=0.01)
+    assert {name for mark in sheet.marks for name in mark.names} == {"wall"}
+
+
+def test_doors_open_the_walls(tmp_path):
+    rooms = (feature(BOX, indoor="room"), feature(NEXT, indoor="room"))
+    door = feature([(4, 1.5)], "Point", door="yes", width="1.2")
+    closed, opened = read(tmp_path, *rooms), read(tmp_path, *rooms, door)
+    assert length(closed) - length(opened) == pytest.approx(1.2, abs=0.02)
+
+
+def test_corridors_run_into_each_other(tmp_path):
+    sheet = read(tmp_path, feature(BOX, indoor="corridor"), feature(NEXT, indoor="corridor"))
+    assert length(sheet) == pytest.approx(2 * (8 + 3), abs=0.01)
+
+
+def test_the_level_with_most_rooms_is_shown_unless_another_is_named(tmp_path):
+    rooms = (
+        feature(BOX, indoor="room", level="1"),
+        feature(NEXT, indoor="room", level="1"),
+        feature(BOX, indoor="room", level="0;2"),
+    )
+    assert length(read(tmp_path, *rooms)) == pytest.approx(25, abs=0.01)
+    assert length(read(tmp_path, *rooms, level="2")) == pytest.approx(14, abs=0.01)
+    assert "other levels (2): 0, 2" in read(tmp_path, *rooms).left_out[0]
+    with pytest.raises(FileError, match="no level '7', choose one of 1, 0, 2"):
+        read(tmp_path, *rooms, level="7")
+
+
+def test_stairs_columns_and_furniture_are_named(tmp_path):
+    sheet = read(
+        tmp_path,
+        feature(BOX, indoor="room", stairs="yes"),
+        feature(NEXT, indoor="column"),
+        feature(NEXT, feature_type="fixture"),
+    )
+    names = [mark.names for mark in sheet.marks]
+    assert {("stairs",), ("column",), ("furniture",)} <= set(names)
+    assert sheet.marks[names.index(("column",))].fill == (0, 0, 0)
+
+
+def test_imdf_opens_walls_at_openings_and_names_levels(tmp_path):
+    files = {
+        "unit.geojson": collection(
+            feature(BOX, feature_type="unit", category="room", level_id="l1", name={"en": "Kitchen"}),
+            feature(NEXT, feature_type="unit", category="walkway", level_id="l1"),
+            feature(BOX, feature_type="unit", category="room", level_id="l2"),
+        ),
+        "opening.geojson": collection(
+            feature([(4, 1), (4, 2)], "LineString", feature_type="opening", level_id="l1")
+        ),
+        "level.geojson": collection(
+            feature(BOX, feature_type="level", feature_id="l1", short_name={"en": "EG"}, ordinal=0),
+            feature(BOX, feature_type="level", feature_id="l2", ordinal=1),
+        ),
+    }
+    with zipfile.ZipFile(tmp_path / "venue.zip", "w") as archive:
+        for name, text in files.items():
+            archive.writestr(f"venue/{name}", text)
+            (tmp_path / name).write_text(text)
+    for sheet in (read_imdf(tmp_path / "venue.zip", "EG"), read_geojson(tmp_path / "unit.geojson", "eg")):
+        assert length(sheet) == pytest.approx(25 - 1, abs=0.02)
+        assert [text.text for text in sheet.texts] == ["Kitchen"]
+        assert sheet.left_out == (f"other levels (1): 1; choose one by {sheet.source.split('/')[-1]}#1",)
+
+
+def test_coordinates_of_a_plane_stay_as_they_are(tmp_path):
+    path = tmp_path / "plan.geojson"
+    line = {"type": "LineString", "coordinates": [[0, 0], [120, 40]]}
+    path.write_text(json.dumps({"type": "Feature", "properties": None, "geometry": line}))
+    sheet = read_geojson(path)
+    assert sheet.marks[0].outlines[0].vertices.tolist() == [[0, 0], [120, 40]]
+    assert sheet.metres_per_unit is None
+
+
+def osm(nodes, ways):
+    points = "".join(
+        f'<node id="{k}" lon="{x * METRE}" lat="{y * METRE}">{tags}</node>' for k, x, y, tags in nodes
+    )
+    lines = "".join(
+        f'<way id="{100 + k}">{"".join(f"<nd ref={chr(34)}{ref}{chr(34)}/>" for ref in refs)}{tags}</way>'
+        for k, (refs, tags) in enumerate(ways)
+    )
+    return f'<osm version="0.6">{points}{lines}</osm>'
+
+
+def test_osm_doors_are_nodes_of_walls(tmp_path):
+    room = '<tag k="indoor" v="room"/><tag k="level" v="0"/><tag k="name" v="Hall"/>'
+    nodes = [(1, 0, 0, ""), (2, 4, 0, ""), (3, 4, 3, ""), (4, 0, 3, ""), (5, 2, 0, '<tag k="door" v="yes"/>')]
+    path = tmp_path / "plan.osm"
+    path.write_text(osm(nodes, [((1, 5, 2, 3, 4, 1), room), ((1, 99), room), ((3, 4), "")]))
+    sheet = read_osm(path)
+    assert length(sheet) == pytest.approx(14 - 0.9, abs=0.02)
+    assert sheet.texts[0].text == "Hall"
+    points = np.vstack([outline.vertices for mark in sheet.marks for outline in mark.outlines])
+    assert points.max(axis=0) == pytest.approx([4, 3], abs=0.01)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"type": "FeatureCollection", "features": [1, {}]}'])
+def test_other_json_is_refused_in_one_line(tmp_path, text):
+    path = tmp_path / "plan.geojson"
+    path.write_text(text)
+    with pytest.raises(FileError, match=r"^[^\n]+$"):
+        read_geojson(path)
+
+
+@pytest.mark.parametrize("text", ["", "<osm>", "<osm/>", "<osm><node id='1' lat='x' lon='1'/></osm>"])
+def test_other_xml_is_refused_in_one_line(tmp_path, text):
+    path = tmp_path / "plan.osm"
+    path.write_text(text)
+    with pytest.raises(FileError, match=r"^[^\n]+$"):
+        read_osm(path)
+
+
+@needs_vector
+@pytest.mark.parametrize("name", ["house.osm", "house.geojson"])
+def test_a_house_is_the_same_in_both_formats(name):
+    sheet = (read_osm if name.endswith("osm") else read_geojson)(VECTOR / name)
+    assert {text.text for text in sheet.texts} == {"kid room", "parent room"}
+    assert length(sheet) == pytest.approx(68.2, abs=0.5)

@@ -1,0 +1,151 @@
+"""What becomes a mark of a picture: walls and doors; and what does not: words, ruled lines, floors."""
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image, ImageDraw, ImageFont
+
+from pilotage.io.picture import sheet_of
+from pilotage.io.picture.arcs import Arc, fit_arc, with_leaf
+from pilotage.io.picture.ink import find_ink
+from pilotage.io.picture.join import join_straight
+
+WHITE, BLACK, BLUE, GREEN = (255, 255, 255), (0, 0, 0), (160, 190, 230), (140, 200, 160)
+
+
+def paper(color=WHITE, size=(1200, 900)):
+    picture = Image.new("RGB", size, color)
+    return picture, ImageDraw.Draw(picture)
+
+
+def colors_of(picture):
+    return np.asarray(picture, dtype=np.float32) / np.float32(255.0)
+
+
+def room(pen, width=5, fill=BLACK):
+    pen.rectangle([200, 150, 1000, 750], outline=fill, width=width)
+
+
+def length_of(sheet):
+    return sum(outline.length for mark in sheet.marks for outline in mark.outlines)
+
+
+def test_a_room_in_pen_is_lines_in_its_own_pixels_y_up():
+    picture, pen = paper()
+    room(pen)
+    sheet = sheet_of(colors_of(picture))
+    points = np.vstack([outline.vertices for mark in sheet.marks for outline in mark.outlines])
+
+    assert sheet.y_down
+    assert all(mark.pen is not None and mark.fill is None for mark in sheet.marks)
+    np.testing.assert_allclose(points.min(axis=0), (202.5, -748.5), atol=2.0)
+    np.testing.assert_allclose(points.max(axis=0), (998.5, -152.5), atol=2.0)
+
+
+@pytest.mark.parametrize(
+    "size", [(1200, 900), pytest.param((3000, 2250), marks=pytest.mark.slow), (600, 450)]
+)
+def test_a_unit_is_a_pixel_whatever_the_size(size):
+    picture, pen = paper()
+    room(pen, width=9)
+    sheet = sheet_of(colors_of(picture.resize(size)))
+
+    scale = size[0] / 1200
+    assert pytest.approx(2.0 * (800 + 600) * scale, rel=0.03) == length_of(sheet)
+
+
+def test_words_are_no_walls():
+    picture, pen = paper()
+    room(pen)
+    alone = length_of(sheet_of(colors_of(picture)))
+    pen.text((400, 400), "kitchen 12", fill=BLACK, font=ImageFont.load_default(36))
+    sheet = sheet_of(colors_of(picture))
+
+    assert pytest.approx(alone, rel=0.01) == length_of(sheet)
+    assert any("words" in said for said in sheet.left_out)
+
+
+@pytest.mark.parametrize("squared", [False, True])
+def test_ruled_and_squared_paper_is_no_ink(squared):
+    picture, pen = paper()
+    for y in range(0, 900, 40):
+        pen.line([(0, y), (1200, y)], fill=BLUE, width=2)
+    for x in range(0, 1200 if squared else 0, 40):
+        pen.line([(x, 0), (x, 900)], fill=BLUE, width=2)
+    room(pen)
+    sheet = sheet_of(colors_of(picture))
+
+    assert any("ruled" in said for said in sheet.left_out)
+    assert pytest.approx(2.0 * (800 + 600), rel=0.03) == length_of(sheet)
+
+
+def test_faint_lines_of_a_room_are_not_taken_for_ruling():
+    picture, pen = paper()
+    room(pen)
+    pen.line([(600, 150), (600, 500)], fill=(150, 150, 150), width=4)
+
+    assert not find_ink(colors_of(picture)).ruled
+    assert find_ink(colors_of(picture)).mask[300, 600]
+
+
+def test_thick_walls_beside_thin_lines_are_areas():
+    picture, pen = paper()
+    room(pen, width=16)
+    pen.line([(600, 165), (600, 735)], fill=BLACK, width=3)
+    sheet = sheet_of(colors_of(picture))
+    (wall,) = [mark for mark in sheet.marks if mark.fill is not None]
+    (line,) = [mark for mark in sheet.marks if mark.pen is not None]
+
+    assert 2 == len(wall.outlines)
+    assert sum(wall.fill) < 0.3
+    assert pytest.approx(570.0, abs=20.0) == line.outlines[0].length
+
+
+def test_the_color_of_a_narrow_floor_is_no_wall():
+    picture, pen = paper()
+    pen.rectangle([200, 300, 1000, 330], fill=GREEN)
+    room(pen, width=16)
+    sheet = sheet_of(colors_of(picture))
+
+    assert all(max(mark.fill) < 0.5 for mark in sheet.marks if mark.fill is not None)
+
+
+def test_a_door_is_a_smooth_arc_that_ends_at_its_leaf():
+    picture, pen = paper()
+    room(pen)
+    pen.line([(400, 150), (400, 250)], fill=BLACK, width=5)
+    pen.arc([300, 50, 500, 250], 0, 90, fill=BLACK, width=4)
+    sheet = sheet_of(colors_of(picture))
+    arcs = [line for mark in sheet.marks for line in mark.outlines if len(line) == 10]
+
+    (arc,) = [line for line in arcs if line.length < 200.0]
+    assert pytest.approx(150.0, abs=15.0) == arc.length
+    strays = np.hypot(*(arc.vertices - (400.0, -150.0)).T) - 100.0
+    assert np.abs(strays).max() < 4.0
+
+
+def test_a_leaf_is_found_where_ink_is():
+    ink = np.zeros((200, 200), dtype=bool)
+    ink[100:180, 99:102] = True
+    arc = Arc((100.0, 100.0), 80.0, 0.0, np.deg2rad(70.0))
+
+    assert pytest.approx(np.pi / 2, abs=0.1) == with_leaf(arc, ink).last
+    assert not with_leaf(arc, np.zeros_like(ink)).has_leaf
+
+
+@pytest.mark.parametrize("sweep", [60.0, 90.0, 120.0])
+def test_a_circle_is_fitted_exactly(sweep):
+    angles = np.deg2rad(np.linspace(20.0, 20.0 + sweep, 60))
+    arc = fit_arc(np.column_stack([50.0 + 40.0 * np.cos(angles), 60.0 + 40.0 * np.sin(angles)]), 3.0, (5, 99))
+
+    assert arc is not None
+    assert pytest.approx((50.0, 60.0, 40.0), abs=1e-6) == (*arc.center, arc.radius)
+
+
+def test_lines_go_on_across_a_fork_and_a_gap_of_the_pen_but_not_through_a_door():
+    left, right = np.array([(0.0, 0.0), (50.0, 0.0)]), np.array([(52.0, 0.5), (100.0, 0.0)])
+    beyond, stem = np.array([(130.0, 0.0), (200.0, 0.0)]), np.array([(51.0, 40.0), (51.0, 0.0)])
+    joined = join_straight([left, right, beyond, stem], 3.0)
+
+    assert [2, 2, 4] == sorted(map(len, joined))
+    assert shapely.LineString(max(joined, key=len)).length == pytest.approx(100.0, abs=0.5)

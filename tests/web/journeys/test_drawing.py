@@ -1,0 +1,190 @@
+"""Drawing a building in the browser, and what the page understands of it."""
+
+import re
+from pathlib import Path
+
+import pytest
+from PIL import Image, ImageDraw
+from playwright.sync_api import Browser, Page, expect
+
+import pilotage
+from web_page import PATIENCE_MS, Sheet
+
+pytestmark = pytest.mark.slow
+
+
+def saved(sheet: Sheet, folder: Path) -> Path:
+    """Wait until the drawing is saved; return its file."""
+    sheet.page.wait_for_timeout(100)  # a change is told to the page's own state first
+    expect(sheet.page.get_by_test_id("save-state")).to_have_text("saved", timeout=PATIENCE_MS)
+    return folder / sheet.page.get_by_label("Name of the drawing").input_value()
+
+
+def test_what_is_drawn_is_read_by_pilotage_as_the_page_shows_it(sheet: Sheet, folder: Path) -> None:
+    sheet.draw_flat()
+    sheet.page.mouse.move(430, 330)
+
+    expect(sheet.page.get_by_test_id("hover")).to_contain_text("kitchen")
+    sheet.shot("draw")
+    sketch = pilotage.open_map(saved(sheet, folder))
+    assert {"kitchen", "bath"} == {label.text for label in sketch.labels}
+
+
+def test_a_drawing_opens_again_as_it_was(sheet: Sheet, folder: Path) -> None:
+    sheet.draw_flat()
+    before = saved(sheet, folder).read_text()
+    sheet.page.reload()
+
+    expect(sheet.summary).to_contain_text("4 cells, 3 openings", timeout=PATIENCE_MS)
+    assert before == saved(sheet, folder).read_text()
+
+
+def test_a_closed_room_is_pointed_out_and_mended_by_one_click(sheet: Sheet) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    sheet.box(600, 150, 900, 450)
+    sheet.box(300, 450, 900, 620)
+    sheet.doors((600, 300))
+
+    expect(sheet.summary).to_contain_text("finding", timeout=PATIENCE_MS)
+    badge = sheet.page.get_by_role("button", name=re.compile("Finding .* door"))
+    badge.first.click()
+    sheet.shot("finding")
+    sheet.page.get_by_role("dialog", name="Finding").get_by_role("button", name=re.compile("door")).click()
+    expect(sheet.summary).to_contain_text("2 openings, nothing to mend", timeout=PATIENCE_MS)
+
+
+def test_a_door_is_moved_and_widened_by_dragging_it(sheet: Sheet) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    sheet.box(600, 150, 900, 450)
+    sheet.doors((600, 300))
+    expect(sheet.summary).to_contain_text("1 opening", timeout=PATIENCE_MS)
+    line = sheet.page.locator(".overlay line").first
+    first = sorted(float(line.get_attribute(name) or 0) for name in ("y1", "y2"))
+    sheet.tool("Door")
+    sheet.drag((600, 300), (600, 360))
+
+    middle = sum(first) / 2 + 60
+    for _ in range(100):
+        ends = sorted(float(line.get_attribute(name) or 0) for name in ("y1", "y2"))
+        if sum(ends) / 2 > middle - 5:
+            break
+        sheet.page.wait_for_timeout(50)
+    assert sum(ends) / 2 == pytest.approx(middle, abs=5)
+
+
+def test_two_clicks_show_the_route_between_them(sheet: Sheet) -> None:
+    sheet.draw_flat()
+    sheet.tool("Route")
+    sheet.page.mouse.click(700, 250)
+    sheet.page.mouse.click(800, 560)
+
+    expect(sheet.page.get_by_test_id("route")).to_be_attached(timeout=PATIENCE_MS)
+    sheet.shot("route")
+
+
+def test_a_measure_gives_the_sizes_of_rooms(sheet: Sheet, folder: Path) -> None:
+    sheet.draw_flat()
+    sheet.tool("Measure")
+    sheet.drag((300, 640), (900, 640))
+    sheet.page.get_by_label("Length in metres").fill("12")
+    sheet.page.get_by_role("button", name="This is 12 m").click()
+    sheet.page.mouse.move(430, 330)
+
+    expect(sheet.page.get_by_test_id("hover")).to_contain_text("about 24 m2", timeout=PATIENCE_MS)
+    assert 'data-metres-per-unit="0.02000"' in saved(sheet, folder).read_text()
+
+
+def test_all_of_it_works_by_keyboard(page: Page, sheet: Sheet) -> None:
+    page.get_by_role("button", name="office, careful").press("Enter")
+    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    page.get_by_role("toolbar", name="Tools of the drawing table").get_by_role("button", name="Goal").press(
+        "Enter"
+    )
+    layer = page.get_by_test_id("tool-layer")
+    layer.press("ArrowLeft")
+    layer.press("Enter")
+    page.get_by_role("button", name="Drive", exact=True).press("Enter")
+
+    expect(page.get_by_test_id("go")).to_be_enabled()
+
+
+def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
+    plan = tmp_path / "plan.dxf"
+    plan.write_text(dxf([(0, 0, 8, 0), (8, 0, 8, 5), (8, 5, 0, 5), (0, 5, 0, 0), (4, 0, 4, 2), (4, 3, 4, 5)]))
+    sheet.page.get_by_test_id("file-input").set_input_files(plan)
+
+    expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
+    sheet.shot("dxf")
+
+
+def test_a_photo_lies_under_what_was_traced_from_it(sheet: Sheet, tmp_path: Path) -> None:
+    photo = tmp_path / "photo.jpg"
+    picture = Image.new("RGB", (900, 600), "#f4f1ea")
+    pen = ImageDraw.Draw(picture)
+    pen.rectangle((80, 80, 820, 520), outline="#333333", width=6)
+    pen.line((450, 80, 450, 260), fill="#333333", width=6)
+    pen.line((450, 350, 450, 520), fill="#333333", width=6)
+    picture.save(photo)
+    sheet.page.get_by_test_id("file-input").set_input_files(photo)
+
+    expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
+    sheet.shot("photo")
+
+
+def test_a_hostile_file_is_refused_in_words(sheet: Sheet, tmp_path: Path) -> None:
+    hostile = tmp_path / "hostile.svg"
+    hostile.write_text(
+        '<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>'
+        '<svg xmlns="http://www.w3.org/2000/svg"><script>document.title="taken"</script><text>&b;</text></svg>'
+    )
+    sheet.page.get_by_test_id("file-input").set_input_files(hostile)
+
+    expect(sheet.page.get_by_role("alert")).to_be_visible(timeout=PATIENCE_MS)
+    sheet.shot("hostile")
+    assert "taken" not in sheet.page.title()
+
+
+def test_two_tabs_do_not_lose_each_others_work(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    name = saved(sheet, folder).name
+    other = Sheet(sheet.page.context.new_page())
+    other.page.goto(sheet.page.url)
+    expect(other.page.get_by_label("Name of the drawing")).to_have_value(name, timeout=PATIENCE_MS)
+    sheet.page.bring_to_front()
+    sheet.box(600, 150, 900, 450)
+    saved(sheet, folder)
+    sheet.page.wait_for_timeout(1500)
+    other.page.bring_to_front()
+    other.focus()
+    other.box(400, 500, 700, 600)
+
+    question = other.page.get_by_role("dialog", name="This drawing was changed elsewhere")
+    expect(question).to_be_visible(timeout=PATIENCE_MS)
+    other.shot("conflict")
+    question.get_by_role("button", name="Keep mine as a copy").click()
+    assert name != saved(other, folder).name
+
+
+def test_the_page_fits_a_phone(browser: Browser, address: str) -> None:
+    context = browser.new_context(viewport={"width": 390, "height": 760}, has_touch=True)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_selector("body[data-ready]")
+    page.get_by_role("button", name="office, quick").tap()
+    sheet = Sheet(page)
+    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    sheet.shot("phone")
+
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    context.close()
+
+
+def dxf(lines: list[tuple[float, float, float, float]]) -> str:
+    """Write lines as the entities of a DXF file."""
+    entities = "".join(
+        f"0\nLINE\n8\nwalls\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n" for x1, y1, x2, y2 in lines
+    )
+    return f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"

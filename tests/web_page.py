@@ -1,0 +1,113 @@
+"""Draws on the page of the drawing table by mouse and keyboard, and reads what it says."""
+
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect
+
+PICTURES = os.environ.get("TABLE_PICTURES")
+"""Folder in which the pictures of the journeys are kept; without it they are taken and dropped."""
+
+PATIENCE_MS = 15_000
+"""The machine may be busy with other tests."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A page of the drawing table."""
+
+    page: Page
+
+    def box(self, left: float, top: float, right: float, bottom: float) -> None:
+        """Draw a rectangle."""
+        self.page.keyboard.press("r")
+        self.drag((left, top), (right, bottom))
+        self.page.keyboard.press("Escape")
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        """Press, move and release."""
+        mouse = self.page.mouse
+        mouse.move(*start)
+        mouse.down()
+        mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+        mouse.move(*end)
+        mouse.up()
+
+    def write(self, x: float, y: float, words: str) -> None:
+        """Write words."""
+        self.page.keyboard.press("t")
+        self.page.mouse.click(x, y)
+        self.page.locator("textarea.excalidraw-wysiwyg").wait_for()
+        self.page.keyboard.type(words)
+        self.page.keyboard.press("Escape")
+
+    def tool(self, name: str) -> None:
+        """Choose a tool of the table, or leave it."""
+        tools = self.page.get_by_role("toolbar", name="Tools of the drawing table")
+        tools.get_by_role("button", name=name).click()
+
+    def doors(self, *places: tuple[float, float]) -> None:
+        """Cut doors."""
+        self.tool("Door")
+        for place in places:
+            self.page.mouse.click(*place)
+        self.tool("Door")
+
+    def focus(self) -> None:
+        """Give the editor the keyboard."""
+        self.page.mouse.click(640, 740)
+
+    def draw_flat(self) -> None:
+        """Draw four rooms with doors between them, two of them named."""
+        self.focus()
+        self.box(300, 150, 560, 380)
+        self.box(560, 150, 900, 380)
+        self.box(300, 380, 700, 620)
+        self.box(700, 380, 900, 620)
+        self.write(400, 240, "kitchen")
+        self.write(760, 480, "bath")
+        self.doors((560, 280), (430, 380), (700, 520))
+        expect(self.summary).to_contain_text("4 cells, 3 openings", timeout=PATIENCE_MS)
+
+    def drive(self, speed: int = 10, severity: float = 0.2) -> None:
+        """Start a drive through this drawing, made real."""
+        self.page.get_by_role("button", name="Drive", exact=True).click()
+        self.page.get_by_label("How wrong the drawing is").fill(str(severity))
+        self.page.get_by_role("combobox", name="Speed").select_option(str(speed))
+        self.page.get_by_test_id("go").click()
+        expect(self.page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
+
+    def in_world(self, x: float, y: float) -> tuple[float, float]:
+        """Return where on the screen a point of the world [m] is."""
+        canvas = self.page.get_by_test_id("world")
+        box = canvas.bounding_box()
+        assert box is not None
+        scale = float(canvas.get_attribute("data-scale") or 1)
+        left, top = (float(part) for part in (canvas.get_attribute("data-shift") or "0,0").split(","))
+        return box["x"] + left + scale * x, box["y"] + top + scale * y
+
+    def shot(self, name: str) -> None:
+        """Take a picture, and keep it where the environment says so."""
+        path = Path(PICTURES, f"table-{name}.png") if PICTURES else None
+        self.page.screenshot(path=path)
+
+    @property
+    def summary(self) -> Locator:
+        """What is understood, in words."""
+        return self.page.get_by_test_id("summary")
+
+    @property
+    def status(self) -> Locator:
+        """What the robot is about, in words."""
+        return self.page.get_by_test_id("status")
+
+    @property
+    def marks(self) -> Locator:
+        """What happened last."""
+        return self.page.get_by_test_id("marks")
+
+    def ended(self, outcome: str) -> None:
+        """Wait until the drive has ended like this."""
+        expect(self.status).to_have_attribute("data-outcome", re.compile(outcome), timeout=8 * PATIENCE_MS)
