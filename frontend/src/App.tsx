@@ -88,7 +88,7 @@ export function App() {
     editor.addFiles(Object.values(shown.files));
     editor.updateScene({ elements: restoreElements(shown.elements, null), captureUpdate: CaptureUpdateAction.NEVER });
     editor.history.clear();
-    if (shown.elements.length) editor.scrollToContent(undefined, { fitToViewport: true, viewportZoomFactor: 0.8 });
+    if (shown.elements.length) editor.scrollToContent(undefined, { fitToContent: true });
     setEnds([]);
     setHovered(undefined);
     setGoalName("");
@@ -199,6 +199,7 @@ export function App() {
     const goal = goalName || goalOf(elements());
     setFate("none");
     setTool("none");
+    if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
     begin({
       type: "start", content: { media: "image/svg+xml", text: plain() }, ...(goal ? { goal } : {}),
       ...(start && choice.tellStart ? { start } : {}), ...orderOf(choice),

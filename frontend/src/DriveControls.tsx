@@ -29,7 +29,7 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
   return (
     <section className="drive-controls" aria-label="Drive">
       <p className={`status ${believed?.status ?? ""}`} role="status" data-testid="status" data-outcome={done?.outcome ?? ""}>
-        <b>{done ? done.text || done.outcome : (frame?.text ?? (drive.error ? "" : "the robot wakes up ..."))}</b>
+        <b>{done && frame?.live !== false ? done.text || done.outcome : (frame?.text ?? (drive.error ? "" : "the robot wakes up ..."))}</b>
         {!drive.connected && session && !drive.fatal && <span className="bad"> connection lost, trying again</span>}
         {drive.error && <span className="bad"> {drive.error}</span>}
       </p>

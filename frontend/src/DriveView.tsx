@@ -9,6 +9,7 @@ export type Fate = "none" | "goal" | "door" | "box" | "person";
 
 const GRAB_PX = 26; // how near the robot a press takes it up
 const TRAIL_POINTS = 2000;
+const CARRIED = 2.5; // from frame to frame, that no robot drives [m]
 
 export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: Fate; send: (order: Order) => void; onGoal: (at: Point) => void }) {
   const [carried, setCarried] = useState<Point | null>(null);
@@ -51,7 +52,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
       line(brush, [[x1, y1], [x2, y2]], COLOR.door, door.closed ? 4 : 1.5, false, door.closed ? [] : [2, 5]);
     }
     if (world.goal) star(brush, world.goal);
-    line(brush, trail.true, COLOR.trail, 3);
+    for (const piece of trail.true) line(brush, piece, COLOR.trail, 3);
     if (truth) {
       for (const person of truth.people) disc(brush, person, COLOR.person, 6);
       robot(brush, truth.pose, COLOR.accent);
@@ -120,8 +121,19 @@ function paintBeams({ context }: Brush, [x, y]: Pose, scan: readonly number[]): 
   context.fill();
 }
 
+/** A way in pieces, broken where the robot was carried. */
+function pieces(way: Point[]): Point[][] {
+  const all: Point[][] = [];
+  way.forEach((point, k) => {
+    const before = way[k - 1];
+    if (before && Math.hypot(point[0] - before[0], point[1] - before[1]) < CARRIED) all.at(-1)!.push(point);
+    else all.push([point]);
+  });
+  return all;
+}
+
 /** The ways believed and true until the shown moment. A jump of the estimate begins a new line. */
-function useTrail(drive: Drive): { believed: Point[]; true: Point[] } {
+function useTrail(drive: Drive): { believed: Point[]; true: Point[][] } {
   const kept = useRef<{ session: string; t: number; points: { t: number; believed: Point; true: Point | null; sure: boolean }[] }>({ session: "", t: -1, points: [] });
   const { frame, session } = drive;
   const trail = kept.current;
@@ -134,7 +146,7 @@ function useTrail(drive: Drive): { believed: Point[]; true: Point[] } {
   }
   const until = trail.points.filter((one) => one.t <= (frame?.t ?? 0));
   const lost = until.findLastIndex((one, k) => !one.sure || (k > 0 && jump(until[k - 1]!.believed, one.believed, drive)));
-  return { believed: until.slice(lost + 1).map((one) => one.believed), true: until.flatMap((one) => (one.true ? [one.true] : [])) };
+  return { believed: until.slice(lost + 1).map((one) => one.believed), true: pieces(until.flatMap((one) => (one.true ? [one.true] : []))) };
 }
 
 const jump = (a: Point, b: Point, drive: Drive) => Math.hypot(a[0] - b[0], a[1] - b[1]) > 2 * (drive.frame?.believed.scale ?? Infinity);

@@ -119,7 +119,7 @@ function restored(partial: Record<string, unknown>): Element {
   const id = crypto.getRandomValues(new Uint32Array(2)).join("");
   const seed = crypto.getRandomValues(new Uint32Array(1))[0]! >>> 1;
   const whole = { ...BASE, id, seed, versionNonce: seed, version: 1, ...partial };
-  return restoreElements([whole as unknown as Element], null, { refreshDimensions: true })[0]!;
+  return restoreElements([whole as unknown as Element], null)[0]!;
 }
 
 /** A line or a freehand stroke through points of the scene. */
@@ -141,9 +141,13 @@ export function newStroke(points: Point[], like: Partial<Element> = {}, type = "
   });
 }
 
-export function newText(text: string, at: Point, fontSize: number): Element {
-  const made = restored({ type: "text", text, originalText: text, x: 0, y: 0, fontSize, fontFamily: 5, strokeColor: INK, textAlign: "center", autoResize: true });
-  return { ...made, x: at[0] - made.width / 2, y: at[1] - made.height / 2 };
+const LINE_HEIGHT = 1.25; // of the editor's handwriting, in sizes of the font
+
+export function newText(text: string, [x, y]: Point, fontSize: number): Element {
+  const pen = document.createElement("canvas").getContext("2d")!;
+  pen.font = `${fontSize}px Excalifont, sans-serif`;
+  const [width, height] = [Math.max(pen.measureText(text).width, 1), LINE_HEIGHT * fontSize];
+  return restored({ type: "text", text, originalText: text, x: x - width / 2, y: y - height / 2, width, height, fontSize, fontFamily: 5, lineHeight: LINE_HEIGHT, strokeColor: INK, textAlign: "center", autoResize: true });
 }
 
 export function newGoal([x, y]: Point, size: number): Element {

@@ -4,6 +4,7 @@ import { ApiError, saveDrawing } from "./api";
 
 const PAUSE_MS = 700; // without a change, before it is saved
 const LONGEST_MS = 1500; // that a change waits while one draws on
+const RETRY_MS = 2000; // after a save that failed
 
 export interface Document {
   name: string; // "" as long as it is not saved
@@ -26,6 +27,7 @@ export function useAutosave(content: () => string, revision: number, freeName: (
   const [document, setDocument] = useState<Document>({ name: "", base: "drawing", tag: null });
   const [state, setState] = useState<SaveState>("saved");
   const [error, setError] = useState("");
+  const [attempt, setAttempt] = useState(0);
   const now = useRef({ document, saved: "", changedAt: 0 });
   const turn = useRef<Promise<void>>(Promise.resolve());
 
@@ -47,7 +49,9 @@ export function useAutosave(content: () => string, revision: number, freeName: (
         setState("saved");
       } catch (problem) {
         setError(problem instanceof Error ? problem.message : String(problem));
-        setState(problem instanceof ApiError && (problem.status === 409 || problem.status === 412) ? "conflict" : "failed");
+        const refused = problem instanceof ApiError && (problem.status === 409 || problem.status === 412);
+        setState(refused ? "conflict" : "failed");
+        if (!refused) setTimeout(() => setAttempt((before) => before + 1), RETRY_MS);
       }
     });
     return turn.current;
@@ -61,14 +65,15 @@ export function useAutosave(content: () => string, revision: number, freeName: (
     if (saved === null) void saveNow();
   }, [saveNow]);
 
+  const isStopped = state === "conflict";
   useEffect(() => {
-    if (revision === 0 || state === "conflict") return;
+    if (revision === 0 || isStopped) return;
     now.current.changedAt ||= performance.now();
     setState((before) => (before === "saved" ? "saving" : before));
     const waited = performance.now() - now.current.changedAt;
     const timer = setTimeout(() => void saveNow(), Math.max(0, Math.min(PAUSE_MS, LONGEST_MS - waited)));
     return () => clearTimeout(timer);
-  }, [revision, state, saveNow]);
+  }, [revision, isStopped, attempt, saveNow]);
 
   useEffect(() => {
     const leave = () => {

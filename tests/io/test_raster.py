@@ -213,3 +213,11 @@ def test_a_picture_of_too_many_pixels_is_refused(tmp_path, monkeypatch):
 
     with pytest.raises(FileError, match="pixels, got 40 x 40"):
         open_map(saved(tmp_path / "large.png", np.zeros((40, 40))))
+
+
+def test_a_photo_is_read_as_its_camera_was_held(tmp_path):
+    exif = Image.Exif()
+    exif[0x0112] = 6  # turned by a quarter
+    Image.fromarray(pen_drawing().astype(np.uint8)).save(tmp_path / "turned.jpg", exif=exif)
+
+    assert (300, 200, 3) == read_picture(tmp_path / "turned.jpg").colors.shape

@@ -163,3 +163,18 @@ def test_every_route_is_in_the_openapi_document(client: TestClient) -> None:
     served = {route.path.replace(":path", "") for route in client.app.routes}  # type: ignore[attr-defined]
 
     assert served - {"/", "", "/api/live", "/api/openapi.json"} == set(documented)
+
+
+THICK = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 220 120">
+<path fill="black" fill-rule="evenodd" d="M10 10 H210 V110 H10 Z
+M16 16 V104 H107 V70 H113 V104 H204 V16 H113 V50 H107 V16 Z"/></svg>"""
+"""Two rooms between walls that have a thickness."""
+
+
+def test_walls_that_have_a_thickness_keep_it_in_an_upload(client: TestClient) -> None:
+    drawn = client.post("/api/understand", content=THICK, headers=SVG).json()
+    found = client.post("/api/uploads?name=thick.svg", content=THICK).json()
+
+    again = client.post("/api/understand", content=found["svg"], headers=SVG).json()
+    assert (2, 1) == (len(drawn["cells"]), len(drawn["gateways"]))
+    assert (2, 1) == (len(again["cells"]), len(again["gateways"]))

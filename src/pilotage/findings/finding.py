@@ -1,5 +1,6 @@
 """One thing that looks wrong with a drawing."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -11,8 +12,8 @@ from pilotage.maps import SchematicMap
 
 Point = tuple[float, float]
 
-DIGITS = 4
-"""Significant digits of a number in a sentence."""
+DIGITS, MOST_DECIMALS, LEAST = 4, 8, 1e-9
+"""Significant digits of a number in a sentence, digits behind the point, and what is as good as nothing."""
 
 
 class Severity(Enum):
@@ -97,10 +98,24 @@ def pair(point: Array) -> Point:
 def in_words(point: Point) -> str:
     """Write a point as one types it.
 
-    >>> in_words((120.04, -3.0))
-    '120,-3'
+    >>> in_words((120.04, -17280.3))
+    '120,-17280'
     """
-    return ",".join(f"{value:.{DIGITS}g}" for value in np.round(point, 2).tolist())
+    return ",".join(map(length_in_words, point))
+
+
+def length_in_words(value: float) -> str:
+    """Write a number of drawing units with a few digits, and never as a power of ten.
+
+    >>> length_in_words(0.1234567), length_in_words(17280.3)
+    ('0.1235', '17280')
+    """
+    digits = DIGITS - 1 - math.floor(math.log10(max(abs(value), LEAST)))
+    return (
+        np.format_float_positional(round(value, min(digits, MOST_DECIMALS)), trim="-")
+        if digits > 0
+        else f"{value:.0f}"
+    )
 
 
 def worst(findings: Sequence[Finding]) -> Finding | None:

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from pilotage.findings.doors import cut, door_width
-from pilotage.findings.finding import Finding, Mend, MendKind, Severity
+from pilotage.findings.finding import Finding, Mend, MendKind, Severity, length_in_words
 from pilotage.geometry import Array
 from pilotage.maps import CellGraph, Division
 
@@ -40,8 +40,8 @@ def find_closed_gaps(division: Division) -> Iterator[Finding]:
         yield Finding(
             "closed-gap",
             Severity.WARNING if is_needed else Severity.NOTE,
-            f"a gap of {width:.3g} between {rooms[0]} and {rooms[1]} is so narrow that it counts as closed",
-            f"if it is a door, widen it to {usual:.3g}",
+            f"a gap of {length_in_words(width)} between {rooms[0]} and {rooms[1]} counts as closed",
+            f"it is so narrow: if it is a door, widen it to {length_in_words(usual)}",
             (x, y),
             rooms,
             cut(gap, usual),
@@ -61,8 +61,8 @@ def find_odd_gateways(graph: CellGraph) -> Iterator[Finding]:
             yield Finding(
                 "narrow-gateway",
                 Severity.NOTE,
-                f"the gap of {gateway.width:.3g} between {first} and {second} counts as a door,"
-                f" though others are {usual:.3g} wide",
+                f"the gap of {length_in_words(gateway.width)} between {first} and {second} counts as a door,"
+                f" though others are {length_in_words(usual)} wide",
                 "if it is none, close it",
                 (x, y),
                 gateway.cell_ids,

@@ -51,7 +51,7 @@ def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator
         if not names and area.area < SOLID * cells.area:
             continue
         inner = shapely.point_on_surface(area)
-        what = f"{quoted(names)} stands in an area" if names else "an area"
+        what = f"{quoted(names)} stand{'s' * (len(names) == 1)} in an area" if names else "an area"
         yield Finding(
             "closed-area",
             Severity.WARNING if names else Severity.NOTE,

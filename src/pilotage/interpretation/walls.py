@@ -11,9 +11,11 @@ from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import find_partitions
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
+    HAIR,
     are_walls,
     dark_areas,
     enclosed,
+    extent,
     filled_between,
     greatest_thickness,
     lightness,
@@ -24,11 +26,14 @@ from pilotage.interpretation.solids import (
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
 
-USUAL_GAP = 0.08
-"""The same where no door is drawn, as a share of the drawing's diagonal."""
+USUAL_GAP, WIDE_GAP = 0.04, 0.08
+"""The same where no door is drawn, as shares of the drawing's diagonal: of painted walls, and of lines."""
 
 USUAL_DOOR = 0.03
 """Width of a door where none is drawn, as a share of the drawing's diagonal."""
+
+SLIVER = 0.25
+"""Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
 NEARLY_ALL = 0.9
 """The lines of one style are the walls if they enclose this share of what all lines enclose."""
@@ -79,11 +84,17 @@ def find_walls(
     if not solid.is_empty:
         thickness = painted_thickness(solid)
         walls = shapely.difference(filled_between(lines, solid, thickness), openings)
-        walls = touching(walls, solid)
+        body = without_slivers(solid, SLIVER * thickness)
+        walls = shapely.union(walls, shapely.difference(solid, openings))
+        walls = shapely.union(
+            windows(walls, body, thickness, WIDE_GAP * diagonal), shapely.difference(body, openings)
+        )
         if are_walls(walls, lines, gap):
             return Walls(
                 walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness
             )
+    if width is None:
+        gap = WIDE_GAP * diagonal
     faced = greatest_thickness(lines, width, diagonal)
     if faced is not None:
         walls = shapely.difference(filled_between(lines, solid, faced), openings)
@@ -121,10 +132,41 @@ def lines_of_one_style(
     return longest if everything > 0.0 and enclosed(longest, gap) >= NEARLY_ALL * everything else None
 
 
-def touching(filled: shapely.Geometry, solid: shapely.Geometry) -> shapely.Geometry:
-    """Keep what hangs together with solids: windows between walls, and no furniture."""
-    parts = parts_of(filled)
-    return shapely.union_all(parts[shapely.intersects(parts, solid)])
+def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
+    """Leave out what is thinner than a width: leaves of doors that are painted like walls."""
+    inner = shapely.buffer(solid, -width / 2.0, join_style="mitre")
+    return shapely.intersection(shapely.buffer(inner, 0.51 * width, join_style="mitre"), solid)
+
+
+def windows(
+    filled: shapely.Geometry, solid: shapely.Geometry, thickness: float, widest: float
+) -> shapely.Geometry:
+    """Keep what leads from wall to wall, is as thin, and has a room on one side only.
+
+    What has rooms on both sides is a door that is drawn shut, if it is not wider than any, and what stands at
+    a wall is furniture.
+    """
+    hair = HAIR * thickness
+    reach, grown = (shapely.buffer(solid, share * hair, join_style="mitre") for share in (1.0, 2.0))
+    bridges = []
+    for part in parts_of(shapely.difference(filled, reach)):
+        if part.geom_type == "Polygon" and part.area <= thickness * part.length / 2.0:
+            contact = shapely.line_merge(shapely.intersection(shapely.boundary(part), grown))
+            if shapely.get_num_geometries(contact) > 1:
+                bridges.append(shapely.buffer(part, 2.0 * hair, join_style="mitre"))
+    rooms = [
+        shapely.Polygon(ring)
+        for part in parts_of(shapely.union_all([solid, *bridges]))
+        if part.geom_type == "Polygon"
+        for ring in part.interiors
+    ]
+    if not (rooms and bridges):
+        return NOTHING
+    owners, _ = shapely.STRtree(rooms).query(bridges, predicate="dwithin", distance=hair)
+    beside = np.bincount(owners, minlength=len(bridges))
+    return shapely.union_all(
+        [part for part, count in zip(bridges, beside, strict=True) if count < 2 or extent(part) > widest]
+    )
 
 
 def is_floor(color: Color, ground: Color) -> bool:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from pilotage.errors import FileError, PilotageError
-from pilotage.geometry import Array
+from pilotage.geometry import Array, Polyline
 from pilotage.maps import SchematicMap
 from pilotage.web.order import Sent
 
@@ -130,9 +130,15 @@ def svg_of(sketch: SchematicMap) -> str:
     box = f"{left - margin:g} {top - margin:g} {right - left + 2 * margin:g} {bottom - top + 2 * margin:g}"
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
     lines.append(f'<g fill="none" stroke="#1b1b1f" stroke-width="{width:g}">')
-    for stroke in sketch.strokes:
-        path = " L".join(f"{x:g} {y:g}" for x, y in page.points(stroke.vertices))
-        lines.append(f'<path d="M{path}{" Z" if stroke.closed else ""}"/>')
+    solid = {stroke.vertices.tobytes() for stroke in sketch.solids}
+    lines += [
+        f'<path d="{path_of(page, stroke)}"/>'
+        for stroke in sketch.strokes
+        if stroke.vertices.tobytes() not in solid
+    ]
+    if sketch.solids:
+        rings = " ".join(path_of(page, ring) for ring in sketch.solids)
+        lines.append(f'<path class="wall" fill="#1b1b1f" fill-rule="evenodd" stroke="none" d="{rings}"/>')
     lines.append(f'</g><g font-size="{10.0 * width:g}" text-anchor="middle">')
     lines += [
         f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'
@@ -144,3 +150,9 @@ def svg_of(sketch: SchematicMap) -> str:
             (x, y) = page.point(point) or (0.0, 0.0)
             lines.append(f'<circle class="{role}" cx="{x:g}" cy="{y:g}" r="{3.0 * width:g}"/>')
     return "\n".join([*lines, "</svg>", ""])
+
+
+def path_of(page: Page, stroke: Polyline) -> str:
+    """Write a stroke as SVG path data."""
+    points = " L".join(f"{x:g} {y:g}" for x, y in page.points(stroke.vertices))
+    return f"M{points}{' Z' if stroke.closed else ''}"

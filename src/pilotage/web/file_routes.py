@@ -18,7 +18,7 @@ LARGEST_DRAWING = 16 << 20
 """Bytes of a drawing; one with an embedded photo is large."""
 LARGEST_UPLOAD = 64 << 20
 """Bytes of an upload."""
-UNDERSTAND_WITHIN = 10.0
+UNDERSTAND_WITHIN = 20.0
 """Time [s] to understand a drawing,"""
 READ_WITHIN = 60.0
 """and to read an upload: tracing a photo takes a while."""

@@ -51,7 +51,8 @@ def test_a_closed_room_is_pointed_out_and_mended_by_one_click(sheet: Sheet) -> N
     badge.first.click()
     sheet.shot("finding")
     sheet.page.get_by_role("dialog", name="Finding").get_by_role("button", name=re.compile("door")).click()
-    expect(sheet.summary).to_contain_text("2 openings, nothing to mend", timeout=PATIENCE_MS)
+    expect(sheet.summary).to_contain_text(re.compile("[23] openings"), timeout=PATIENCE_MS)
+    expect(badge).to_have_count(0)
 
 
 def test_a_door_is_moved_and_widened_by_dragging_it(sheet: Sheet) -> None:

@@ -18,8 +18,11 @@ from pilotage.io.picture.width import area_widths, depth_of, width_at
 ENOUGH = 2_000_000
 """A picture of more pixels than this is read at a half, a third, ... of its size."""
 
+MOST = 2_750_000
+"""No small picture is made larger than this many pixels."""
+
 FEW = 1_000_000
-"""A picture of fewer pixels is read at twice its size, for its lines are a pixel or two wide."""
+"""A picture of fewer pixels is read at up to twice its size, for its lines are a pixel or two wide."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,9 +87,10 @@ def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
     if height * width < FEW:
         from PIL import Image
 
-        size = (2 * width, 2 * height)
+        larger = min(2.0, float(np.sqrt(MOST / (height * width))))
+        size = (round(larger * width), round(larger * height))
         channels = [Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC) for k in range(3)]
-        return 0.5, np.clip(np.dstack([np.asarray(channel) for channel in channels]), 0.0, 1.0)
+        return width / size[0], np.clip(np.dstack([np.asarray(channel) for channel in channels]), 0.0, 1.0)
     step = int(np.sqrt(height * width / ENOUGH))
     if step < 2:
         return 1.0, colors
