@@ -23,6 +23,16 @@ BOW = 1.6
 """The chords of an arc differ in length by no more than this factor, its first and last left out."""
 
 
+AJAR = np.radians(50.0)
+"""An arc that sweeps less must be even: a wall drawn by hand is never straight, and is no such arc."""
+
+EVEN = 1.2
+"""The chords of an even arc differ in length by no more than this factor."""
+
+SHARE = 0.25
+"""A door's arc is at least this share of the line that draws it; a rounded corner is less."""
+
+
 @dataclass(frozen=True, slots=True)
 class Arc:
     """A part of a circle."""
@@ -59,7 +69,13 @@ def find_arcs(line: Polyline) -> Iterator[Arc]:
         if breaks:
             if k - first + 1 >= LEAST_CHORDS:
                 arc = fitted(points[first : k + 2])
-                if arc is not None:
+                drawn = lengths[first : k + 1]
+                is_even = drawn.max() <= EVEN * drawn.min()
+                if (
+                    arc is not None
+                    and drawn.sum() >= SHARE * lengths.sum()
+                    and (arc.sweep >= AJAR or is_even)
+                ):
                     yield arc
             first = k + 1 if k == len(turns) or not joined[k] else k
 

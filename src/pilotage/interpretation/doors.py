@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.interpretation.arcs import Arc, find_arcs
+from pilotage.interpretation.arcs import AJAR, Arc, find_arcs
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.sheet import Mark, Sheet
 
@@ -18,9 +18,6 @@ RADII = (0.004, 0.12)
 
 ALIKE = 1.6
 """Doors of one drawing differ in width from their median by no more than this factor."""
-
-AJAR = np.radians(50.0)
-"""An arc that sweeps less is a door only if it has a leaf."""
 
 LEAF = (0.6, 1.25)
 """A leaf is as long as the radius of its arc, within these shares."""

@@ -36,13 +36,16 @@ SLIVER = 0.25
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
 NEARLY_ALL = 0.9
-"""The lines of one style are the walls if they enclose this share of what all lines enclose."""
+"""Black lines alone are the walls if they enclose this share of what all lines enclose."""
 
-MOST_STYLES = 30
-"""A drawing with more styles than this tells nothing by them."""
+COLORFUL = 0.5
+"""A line is in a color if its channels differ by this much; ink in a photo is paler."""
+
+LONG = 0.15
+"""A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
 
 EDGE = 0.0005
-"""Widths of lines that differ by less than this share of the drawing's diagonal look alike."""
+"""Lines that are nearer than this share of the drawing's diagonal are one."""
 
 PALE = 0.4
 """A fill that differs less than this from the ground in lightness is a floor if it has no line around it."""
@@ -101,35 +104,27 @@ def find_walls(
         walls = without_crumbs(walls, faced)
         if are_walls(walls, lines, gap):
             return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), faced)
-    main = lines_of_one_style(seen, sheet, gap, diagonal)
-    if main is not None:
-        others = shapely.difference(lines, shapely.buffer(main, EDGE * diagonal))
-        parting = find_partitions(
-            others, shapely.buffer(main, EDGE * diagonal), doors, width or USUAL_DOOR * diagonal
-        )
-        return Walls(solid, shapely.union(main, parting), frozenset(colors), None)
+    main, marginal = by_style(seen, sheet)
+    everything = 0.0 if main.is_empty or marginal.is_empty else enclosed(lines, gap)
+    if everything > 0.0 and enclosed(main, gap) >= NEARLY_ALL * everything:
+        body = shapely.buffer(main, EDGE * diagonal)
+        others = shapely.difference(marginal, body)
+        parting = find_partitions(others, body, doors, width or USUAL_DOOR * diagonal)
+        long = [part for part in parts_of(others) if extent(part) >= LONG * diagonal]
+        return Walls(solid, shapely.union_all([main, parting, *long]), frozenset(colors), None)
     return Walls(solid, None, frozenset(colors), None)
 
 
-def lines_of_one_style(
-    seen: Sequence[Seen], sheet: Sheet, gap: float, diagonal: float
-) -> shapely.Geometry | None:
-    """Find the lines of one color and width that enclose nearly all that is enclosed.
-
-    None if there is no such style, or no other.
-    """
-    styles: dict[tuple[Color, float, bool], list[shapely.Geometry]] = {}
+def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Part lines in black or gray from those in a color and from dashed ones."""
+    main: list[shapely.Geometry] = []
+    marginal: list[shapely.Geometry] = []
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
-            color = (round(pen.color[0], 1), round(pen.color[1], 1), round(pen.color[2], 1))
-            styles.setdefault((color, round(pen.width / (EDGE * diagonal)), pen.dashed), []).append(mark.line)
-    if not 1 < len(styles) <= MOST_STYLES:
-        return None
-    drawn = [shapely.union_all(lines) for lines in styles.values()]
-    longest = max(drawn, key=lambda lines: float(shapely.length(lines)))
-    everything = enclosed(shapely.union_all(drawn), gap)
-    return longest if everything > 0.0 and enclosed(longest, gap) >= NEARLY_ALL * everything else None
+            is_marginal = pen.dashed or max(pen.color) - min(pen.color) >= COLORFUL
+            (marginal if is_marginal else main).append(mark.line)
+    return shapely.union_all(main), shapely.union_all(marginal)
 
 
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
