@@ -124,7 +124,7 @@ def test_a_world_opened_as_a_drawing_shows_the_building_alone(tmp_path):
         )
     )
 
-    assert [5.0, 8.0, 9.0] == [float(stroke.vertices[0, 0]) for stroke in sketch.strokes if not stroke.closed]
+    assert [5.0, 8.0] == [float(stroke.vertices[0, 0]) for stroke in sketch.strokes if not stroke.closed]
     assert ["hall"] == [label.text for label in sketch.labels]
 
 

@@ -1,6 +1,9 @@
 """What a session keeps, and what a slow client gets."""
 
 import asyncio
+from collections.abc import Coroutine
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 
 import pytest
 from hypothesis import given
@@ -9,6 +12,14 @@ from hypothesis import strategies as st
 from pilotage.web.history import History
 from pilotage.web.sessions import Client
 from pilotage.web.workers import Jobs, WorkerError
+
+Result = TypeVar("Result")
+
+
+def finished(work: Coroutine[Any, Any, Result]) -> Result:
+    """Run to the end in a thread of its own: a browser of other tests may keep a loop in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, work).result()
 
 
 def test_a_slow_client_gets_the_newest_of_each_kind_and_nothing_piles_up() -> None:
@@ -21,7 +32,7 @@ def test_a_slow_client_gets_the_newest_of_each_kind_and_nothing_piles_up() -> No
         client.put("frame", "next")
         return first, await client.take()
 
-    assert (["state 999", "frame 999"], ["next"]) == asyncio.run(watch())
+    assert (["state 999", "frame 999"], ["next"]) == finished(watch())
 
 
 def test_a_client_that_says_what_it_saw_is_never_far_behind() -> None:
@@ -35,7 +46,7 @@ def test_a_client_that_says_what_it_saw_is_never_far_behind() -> None:
         client.saw()
         return [*taken, await client.take()]
 
-    *taken, last = asyncio.run(watch())
+    *taken, last = finished(watch())
 
     assert [["state 2", "frame 2"], ["state 3"]] == taken[2:4]
     assert ["state 9"] == taken[-1]
@@ -73,4 +84,4 @@ def test_a_job_that_dies_or_hangs_takes_nothing_else_with_it() -> None:
             await jobs.run(time.sleep, 60.0, within=0.3)
         return await jobs.run(len, "abc", within=60.0)
 
-    assert 3 == asyncio.run(work())
+    assert 3 == finished(work())

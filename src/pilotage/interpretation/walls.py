@@ -32,7 +32,7 @@ USUAL_GAP, WIDE_GAP = 0.04, 0.08
 USUAL_DOOR = 0.03
 """Width of a door where none is drawn, as a share of the drawing's diagonal."""
 
-SLIVER = 0.25
+SLIVER = 0.21
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
 NEARLY_ALL = 0.9
@@ -89,9 +89,8 @@ def find_walls(
         walls = shapely.difference(filled_between(lines, solid, thickness), openings)
         body = without_slivers(solid, SLIVER * thickness)
         walls = shapely.union(walls, shapely.difference(solid, openings))
-        walls = shapely.union(
-            windows(walls, body, thickness, WIDE_GAP * diagonal), shapely.difference(body, openings)
-        )
+        glazed = windows(walls, body, thickness, GAP * (width or USUAL_DOOR * diagonal))
+        walls = shapely.union(glazed, shapely.difference(body, openings))
         if are_walls(walls, lines, gap):
             return Walls(
                 walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness

@@ -68,11 +68,12 @@ def is_ruled(faint: Mask) -> bool:
 def lines_across(faint: Mask) -> tuple[int, int]:
     """Count lines across the paper, as steep as most of them are, and the pixels on them."""
     rows, columns = np.nonzero(faint)
-    height, width = faint.shape
+    width = faint.shape[1]
+    reach = int(STEEPEST * width) + 1  # so that no row is below 0
     best = 0, 0
     for slant in np.linspace(-STEEPEST, STEEPEST, SLANTS):
-        row = np.round(rows + slant * columns).astype(np.int64) + height
-        counts = np.bincount(row, minlength=3 * height)
+        row = np.round(rows + slant * columns).astype(np.int64) + reach
+        counts = np.bincount(row, minlength=1)
         across = counts > ACROSS * width
         lines = int(np.count_nonzero(across[1:] & ~across[:-1]))
         best = max(best, (lines, int(counts[across].sum())), key=lambda found: found[1])

@@ -55,6 +55,8 @@ def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:
     if not outlines or (pen is None and fill is None):
         return
     names = drawn.names if stands(drawn) else (*drawn.names, "ignore")
+    if drawn.notes.get(CLOSED) == ALWAYS:  # a door that never opens
+        names = (*names, "wall")
     if drawn.outlined is not None:
         names = (*names, "text")
     yield Mark(outlines, pen, fill, names, drawn.groups, source_of(drawn))
