@@ -174,9 +174,10 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
     left = list(seen)
     if not seen:
         return left
-    tree = shapely.STRtree(np.array([shapely.union(mark.line, mark.area) for mark in seen]))
+    tree = shapely.STRtree(np.array([shape_of(mark) for mark in seen]))
     for door in doors:
         reach = shapely.union(door.swing, door.opening)
+        shapely.prepare([door.swing, door.opening])
         for place in tree.query(reach, predicate="intersects").tolist():
             mark = left[place]
             line, area = mark.line, mark.area
@@ -192,6 +193,11 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
             whole = mark.whole and line.equals(mark.line)
             left[place] = Seen(mark.number, line, area, whole)
     return left
+
+
+def shape_of(mark: Seen) -> shapely.Geometry:
+    """Return all that is seen of a mark; most have no area, and need no union."""
+    return mark.line if mark.area.is_empty else shapely.union(mark.line, mark.area)
 
 
 def without_leaf(line: shapely.Geometry, door: Door) -> shapely.Geometry:

@@ -91,7 +91,7 @@ def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:
 def parts_of(shape: shapely.Geometry) -> NDArray[np.object_]:
     """List all simple parts of nested collections."""
     parts = np.atleast_1d(shapely.get_parts(shape))
-    while any(shapely.get_num_geometries(part) > 1 or "Multi" in part.geom_type for part in parts):
+    while (shapely.get_type_id(parts) >= shapely.GeometryType.MULTIPOINT).any():
         parts = shapely.get_parts(parts)
     return parts
 

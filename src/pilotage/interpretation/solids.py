@@ -88,9 +88,8 @@ def greatest_thickness(lines: shapely.Geometry, door_width: float | None, diagon
 
 def straight(lines: shapely.Geometry) -> Array:
     """Take lines apart, (n, 2, 2)."""
-    pieces = [shapely.get_coordinates(part) for part in parts_of(lines)]
-    ends = [np.stack([points[:-1], points[1:]], axis=1) for points in pieces if len(points) > 1]
-    return np.concatenate(ends) if ends else np.empty((0, 2, 2))
+    points, owners = shapely.get_coordinates(parts_of(lines), return_index=True)
+    return np.asarray(np.stack([points[:-1], points[1:]], axis=1)[owners[:-1] == owners[1:]])
 
 
 def paired_distance(ends: Array, diagonal: float) -> float | None:
