@@ -15,6 +15,9 @@ from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet
 from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
 
+MOST_PIECES = 30_000
+"""More would take minutes and gigabytes to divide into rooms."""
+
 KINDS = {shading: PictureKind[shading.name] for shading in Shading}
 
 
@@ -110,6 +113,13 @@ def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[Schematic
         interpretation = interpret(sheet, Hints(hints.layers))
     except NoWallsError as error:
         raise FileError(str(error), file) from error
+    pieces = len(interpretation.sketch.segments)
+    if pieces > MOST_PIECES:
+        raise FileError(
+            f"a drawing must have at most {MOST_PIECES:,} straight pieces of walls, found {pieces:,};"
+            " leave out furniture, hatching and text, in the program that drew it or by --layer NAME=ignore",
+            file,
+        )
     return interpretation.sketch, interpretation
 
 
