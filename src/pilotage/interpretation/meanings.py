@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.interpretation.doors import Door
-from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.paint import Seen, parts_of
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.walls import Walls, is_floor
 
@@ -58,12 +59,9 @@ def meanings_of_visible(sheet: Sheet, found: Findings) -> Iterator[tuple[int, Me
     arcs = {found.visible[place].number for door in found.doors for place in door.marks}
     left = {mark.number for mark in found.left if not (mark.line.is_empty and mark.area.is_empty)}
     walls = found.walls
-    thick = shapely.buffer(walls.solid, ALONG * found.diagonal)
-    thin = None if walls.lines is None else shapely.buffer(walls.lines, ALONG * found.diagonal)
     shapes = np.array([shapely.union(mark.line, mark.area) for mark in found.visible], dtype=object)
-    shapely.prepare(thick)
-    in_thick = shapely.intersects(thick, shapes)
-    in_thin = np.zeros(len(shapes), dtype=bool) if thin is None else shapely.intersects(thin, shapes)
+    in_thick = near(shapes, walls.solid, ALONG * found.diagonal)
+    in_thin = near(shapes, walls.lines, ALONG * found.diagonal)
     for mark, is_thick, is_thin in zip(found.visible, in_thick.tolist(), in_thin.tolist(), strict=True):
         drawn = sheet.marks[mark.number]
         if mark.number in arcs:
@@ -82,3 +80,12 @@ def meanings_of_visible(sheet: Sheet, found: Findings) -> Iterator[tuple[int, Me
             yield mark.number, Meaning(Role.WALL, "a line that parts rooms")
         else:
             yield mark.number, Meaning(Role.FURNITURE, "beside the walls, and parts no rooms")
+
+
+def near(shapes: NDArray[np.object_], walls: shapely.Geometry | None, distance: float) -> NDArray[np.bool_]:
+    """Tell which shapes (n,) come near to walls, (n,)."""
+    found = np.zeros(len(shapes), dtype=bool)
+    if walls is not None and len(shapes):
+        tree = shapely.STRtree(parts_of(walls))
+        found[tree.query(shapes, predicate="dwithin", distance=distance)[0]] = True
+    return found
