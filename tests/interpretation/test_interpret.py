@@ -1,0 +1,151 @@
+"""Small flats of two rooms, drawn as people and programs draw them: what is a wall, what a door?"""
+
+import math
+
+import numpy as np
+import pytest
+
+from pilotage.geometry import Polyline
+from pilotage.interpretation import Hints, Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
+from pilotage.maps import DecompositionSettings, decompose
+
+BLACK, RED, WHITE = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+ROOMS = {"bath": (25.0, 40.0), "hall": (75.0, 40.0)}
+
+
+def stroke(*points, color=BLACK, dashed=False, names=()):
+    """A line through points."""
+    return Mark((Polyline(np.array(points, dtype=float)),), Pen(color, 1.0, dashed), names=names)
+
+
+def box(left, bottom, right, top, *, pen=None, fill=None, names=()):
+    """A rectangle."""
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)], dtype=float)
+    return Mark((Polyline(corners, closed=True),), pen, fill, names=names)
+
+
+OUTSIDE = box(0, 0, 100, 80, pen=Pen(BLACK, 1.0))
+WITH_GAP = (OUTSIDE, stroke((50, 0), (50, 30)), stroke((50, 42), (50, 80)))
+LABELS = tuple(Text(name, at, height=3.0) for name, at in ROOMS.items())
+
+
+def arc(center, radius, start, end):
+    """A part of a circle in chords; angles in degrees."""
+    angles = np.radians(np.linspace(start, end, 9))
+    return stroke(*(np.array(center) + radius * np.column_stack([np.cos(angles), np.sin(angles)])))
+
+
+def graph_of(marks, texts=LABELS):
+    """Divide what is understood of marks into cells."""
+    return decompose(interpret(Sheet(tuple(marks), texts)).sketch, DecompositionSettings())
+
+
+def are_joined(marks):
+    """Tell whether the two rooms are told apart and one leads to the other."""
+    graph = graph_of(marks)
+    ids = {cell.label: cell.cell_id for cell in graph.cells}
+    assert set(ROOMS) == set(ids)
+    return ids["hall"] in {neighbor.cell_id for neighbor in graph.neighbors(ids["bath"])}
+
+
+def test_plain_strokes_stay_as_they_were_drawn():
+    understood = interpret(Sheet(WITH_GAP))
+
+    drawn = [outline for mark in WITH_GAP for outline in mark.outlines]
+    assert [line.vertices.tolist() for line in drawn] == [
+        line.vertices.tolist() for line in understood.sketch.strokes
+    ]
+    assert () == understood.sketch.solids
+    assert are_joined(WITH_GAP)
+
+
+def test_a_leaf_with_a_quarter_arc_is_a_door():
+    wall, leaf = stroke((50, 0), (50, 80)), stroke((50, 30), (62, 30))
+
+    assert not are_joined((OUTSIDE, wall))
+    assert are_joined((OUTSIDE, wall, leaf, arc((50, 30), 12, 0, 90)))
+
+
+def test_a_white_patch_over_a_wall_is_a_gap_and_below_it_is_not():
+    rooms = (box(0, 0, 50, 80, pen=Pen(BLACK, 1.0)), box(50, 0, 100, 80, pen=Pen(BLACK, 1.0)))
+    patch = box(47, 30, 53, 42, fill=WHITE)
+
+    assert are_joined((*rooms, patch))
+    assert not are_joined((patch, *rooms))
+
+
+def test_walls_painted_with_a_thickness_are_solid():
+    painted = (
+        box(0, 0, 100, 4, fill=BLACK),
+        box(0, 76, 100, 80, fill=BLACK),
+        box(0, 0, 4, 80, fill=BLACK),
+        box(96, 0, 100, 80, fill=BLACK),
+        box(48, 0, 52, 30, fill=BLACK),
+        box(48, 42, 52, 80, fill=BLACK),
+    )
+
+    assert interpret(Sheet(painted)).sketch.solids
+    assert are_joined(painted)
+    assert 2 == len([cell for cell in graph_of(painted).cells if cell.label])
+
+
+@pytest.mark.parametrize("furniture", [{"color": RED}, {"dashed": True}])
+def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
+    table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), **furniture)
+
+    understood = interpret(Sheet((*WITH_GAP, table)))
+
+    assert Role.FURNITURE is understood.meanings[-1].role
+    assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, table)).cells)
+
+
+@pytest.mark.parametrize("layer", ["A-FURN", "Möbel", "mobilier", "arredo"])
+def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
+    sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))
+
+    guessed, told = interpret(sheet), interpret(sheet, Hints(layers={layer: Role.WALL}))
+
+    assert (Role.FURNITURE, f"its name is {layer!r}") == (
+        guessed.meanings[-1].role,
+        guessed.meanings[-1].reason,
+    )
+    assert Role.WALL is told.meanings[-1].role
+
+
+def test_lines_of_one_name_are_joined_and_areas_are_no_names():
+    texts = (Text("Meeting", (25, 42), 3.0), Text("room", (25, 38), 3.0), Text("11.2 m²", (25, 34), 3.0))
+
+    assert ["Meeting room"] == [label.text for label in interpret(Sheet(WITH_GAP, texts)).sketch.labels]
+
+
+def test_each_mark_has_a_role_and_a_reason():
+    understood = interpret(
+        Sheet((box(-5, -5, 105, 85, fill=WHITE), *WITH_GAP, box(2, 2, 48, 78, fill=(0.8, 0.9, 1.0))))
+    )
+
+    assert len(understood.sheet.marks) == len(understood.meanings)
+    assert all(meaning.reason for meaning in understood.meanings)
+    assert (Role.IGNORE, Role.FLOOR) == (understood.meanings[0].role, understood.meanings[-1].role)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 17.0, 90.0, 200.0])
+@pytest.mark.parametrize("flip", [1.0, -1.0])
+def test_turned_and_mirrored_sheets_are_understood_alike(degrees, flip):
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    turn = np.array([[c, s], [-s, c]]) * (1.0, flip)
+    drawn = (OUTSIDE, stroke((50, 0), (50, 80)), stroke((50, 30), (62, 30)), arc((50, 30), 12, 0, 90))
+    marks = [
+        Mark(tuple(Polyline(line.vertices @ turn, line.closed) for line in mark.outlines), mark.pen)
+        for mark in drawn
+    ]
+    texts = tuple(Text(text.text, tuple((np.array(text.position) @ turn).tolist()), 3.0) for text in LABELS)
+
+    graph = graph_of(marks, texts)
+
+    assert set(ROOMS) == {cell.label for cell in graph.cells}
+    assert 1 == len(graph.gateways)
+
+
+def test_a_sheet_without_a_line_has_no_walls():
+    with pytest.raises(NoWallsError, match="at least one visible stroke"):
+        interpret(Sheet((box(0, 0, 1, 1, fill=WHITE),)))
