@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from pilotage.errors import FileError
 from pilotage.interpretation import Role
 from pilotage.io import open_map
-from pilotage.io.hints import DrawingHints, Shading, read_hints, table_beside
+from pilotage.io.hints import DrawingHints, read_hints, table_beside
+from pilotage.io.raster import Shading
 
 GOOD = """
 page = 2

@@ -7,7 +7,7 @@ from PIL import Image
 
 from pilotage.errors import FileError
 from pilotage.io import open_map
-from pilotage.io.raster import PictureKind, read_picture, read_raster, recognize
+from pilotage.io.raster import Shading, read_picture, recognize
 from pilotage.maps import DecompositionSettings, decompose
 
 SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
@@ -46,9 +46,9 @@ def pen_drawing(ink=(20, 30, 160), paper=(250, 245, 235)):
 @pytest.mark.parametrize(
     ("ground", "wall", "floor", "kind"),
     [
-        (GRAY, DARK, LIGHT, PictureKind.LIGHT_IS_FREE),
-        (DARK, DARK, 255, PictureKind.LIGHT_IS_FREE),
-        (255, 255, DARK, PictureKind.DARK_IS_FREE),
+        (GRAY, DARK, LIGHT, Shading.LIGHT_IS_FREE),
+        (DARK, DARK, 255, Shading.LIGHT_IS_FREE),
+        (255, 255, DARK, Shading.DARK_IS_FREE),
     ],
 )
 def test_filled_plans_of_any_shading_show_the_same_rooms(tmp_path, ground, wall, floor, kind):
@@ -64,7 +64,7 @@ def test_free_space_lies_left_of_the_contours(tmp_path):
     pixels = np.full((60, 60), DARK)
     pixels[10:50, 10:50] = 255
     pixels[25:35, 25:35] = DARK
-    sketch = read_raster(saved(tmp_path / "plan.png", pixels))
+    sketch = open_map(saved(tmp_path / "plan.png", pixels))
     outer, block = sorted(sketch.strokes, key=lambda stroke: -stroke.length)
 
     assert sketch.contours
@@ -75,7 +75,7 @@ def test_free_space_lies_left_of_the_contours(tmp_path):
 def test_pixels_become_units_with_y_up(tmp_path):
     pixels = np.full((60, 80), DARK)
     pixels[10:20, 30:50] = 255
-    sketch = read_raster(saved(tmp_path / "plan.png", pixels), PictureKind.LIGHT_IS_FREE)
+    sketch = open_map(saved(tmp_path / "plan.png", pixels), shading="light-is-free")
 
     assert (30.0, -20.0, 50.0, -10.0) == pytest.approx(sketch.bounds, abs=0.51)
     assert sketch.y_down
@@ -86,7 +86,7 @@ def test_a_pen_of_any_color_draws_walls(tmp_path, ink):
     path = saved(tmp_path / "sketch.png", pen_drawing(ink))
     graph = decompose(open_map(path), DecompositionSettings())
 
-    assert PictureKind.LINES is recognize(read_picture(path))
+    assert Shading.LINES is recognize(read_picture(path))
     assert 2 == len(graph.cells)
     assert 1 == len(graph.gateways)
 
@@ -101,11 +101,11 @@ def test_uneven_light_on_paper_is_no_ink(tmp_path):
     light = np.linspace(0.6, 1.0, 300)[None, :, None]
     path = saved(tmp_path / "photo.png", pen_drawing((0, 0, 0)) * light)
 
-    assert 2 == len(decompose(read_raster(path, PictureKind.LINES), DecompositionSettings()).cells)
+    assert 2 == len(decompose(open_map(path, shading="lines"), DecompositionSettings()).cells)
 
 
 def test_strokes_run_along_the_middle_of_the_ink(tmp_path):
-    sketch = read_raster(saved(tmp_path / "sketch.png", pen_drawing()), PictureKind.LINES)
+    sketch = open_map(saved(tmp_path / "sketch.png", pen_drawing()), shading="lines")
     drawn = shapely.union_all([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
     middle = shapely.box(21.5, -178.5, 278.5, -21.5).exterior
 
@@ -172,12 +172,12 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("name", "kind"),
     [
-        ("rooms/office_b.png", PictureKind.LIGHT_IS_FREE),
-        ("rooms/lab_c_scan_furnitures.png", PictureKind.LIGHT_IS_FREE),
-        ("people-sketches/04.png", PictureKind.LIGHT_IS_FREE),
-        ("people-drawings/belgioioso/plan.png", PictureKind.DARK_IS_FREE),
-        ("people-drawings/belgioioso/freehand.png", PictureKind.LINES),
-        ("worlds/hospital_section.png", PictureKind.LINES),
+        ("rooms/office_b.png", Shading.LIGHT_IS_FREE),
+        ("rooms/lab_c_scan_furnitures.png", Shading.LIGHT_IS_FREE),
+        ("people-sketches/04.png", Shading.LIGHT_IS_FREE),
+        ("people-drawings/belgioioso/plan.png", Shading.DARK_IS_FREE),
+        ("people-drawings/belgioioso/freehand.png", Shading.LINES),
+        ("worlds/hospital_section.png", Shading.LINES),
     ],
 )
 def test_real_pictures_are_recognized(name, kind):

@@ -16,11 +16,11 @@ Beside `office.dxf` it is called `office.dxf.toml`:
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import Enum
 from pathlib import Path
 
 from pilotage.errors import FileError
 from pilotage.interpretation import Role
+from pilotage.io.raster import Shading
 from pilotage.io.toml_files import read_toml
 
 SUFFIX = ".toml"
@@ -35,15 +35,6 @@ LONGEST = 60
 KEYS = ("page", "shading", "layers", "labels")
 
 Point = tuple[float, float]
-
-
-class Shading(Enum):
-    """What a picture means by its shades, as a user names it."""
-
-    RECOGNIZED = "recognized"
-    LIGHT_IS_FREE = "light-is-free"
-    DARK_IS_FREE = "dark-is-free"
-    LINES = "lines"
 
 
 @dataclass(frozen=True, slots=True)

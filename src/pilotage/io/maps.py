@@ -9,16 +9,14 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
-from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
+from pilotage.io.hints import DrawingHints, read_hints, role_of, shading_of, table_beside
 from pilotage.io.kinds import Kind, recognize
-from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet_or_plan, sheet_or_plan
+from pilotage.io.raster import Picture, Shading, read_map_server, read_picture, sheet_or_plan
 from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
 
 MOST_PIECES = 30_000
 """More would take minutes and gigabytes to divide into rooms."""
-
-KINDS = {shading: PictureKind[shading.name] for shading in Shading}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +80,7 @@ def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpr
     file, page = split_page(file, hints.page)
     kind = recognize(file)
     if kind is Kind.PICTURE:
-        seen = read_sheet_or_plan(file, KINDS[hints.shading])
+        seen = sheet_or_plan(read_picture(file), hints.shading, file)
         return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
     if kind is Kind.PDF:
         return read_pdf_page(file, page, hints)
@@ -102,8 +100,8 @@ def read_pdf_page(
     try:
         return understood(read_sheet(file, page), file, hints)
     except PicturePageError:
-        kind = KINDS[hints.shading]
-        seen = read_picture_page(file, page, lambda colors: sheet_or_plan(Picture(colors), kind, file))
+        shading = hints.shading
+        seen = read_picture_page(file, page, lambda colors: sheet_or_plan(Picture(colors), shading, file))
     return (seen, None) if isinstance(seen, SchematicMap) else understood(seen, file, hints)
 
 

@@ -1,13 +1,13 @@
 """Read a drawing from a picture: a filled plan, a line drawing, or a ROS map_server map.
 
-How the kind is recognized, and nowhere else (`recognize`): by what touches the edge of the picture.
+How the shading is recognized, and nowhere else (`recognize`): by what touches the edge of the picture.
 
 - No color fills the edge: a photo or a scan of a line drawing (`LINES`).
 - The edge is gray and a good part of the picture is lighter: a plan as robots draw it. What is light is free.
 - Otherwise what differs from the edge is ink. Thin ink is the strokes of a pen of any color (`LINES`).
 - Fat ink is free space itself: light on a dark ground (`LIGHT_IS_FREE`) or dark on light (`DARK_IS_FREE`).
 
-`io/picture` reads line drawings. Name a `PictureKind` to override what is recognized. A picture is read in
+`io/picture` reads line drawings. Name a `Shading` to override what is recognized. A picture is read in
 pixels from its upper left corner, y up and so below 0; a resolution that a file claims is never believed.
 """
 
@@ -22,15 +22,12 @@ from numpy.typing import NDArray
 
 from pilotage.errors import FileError
 from pilotage.geometry import Polyline
-from pilotage.interpretation import NoWallsError, Sheet, interpret
+from pilotage.interpretation import Sheet
 from pilotage.io.files import check_regular
 from pilotage.maps import SchematicMap
 
 Mask = NDArray[np.bool_]
 Scalar = TypeVar("Scalar", bound=np.generic)
-
-SUFFIXES = (".png", ".pgm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
-"""Pictures that can be read."""
 
 LIGHT = 0.9
 """Share of the range of shades from which on a shade is light: 230 of 255."""
@@ -57,12 +54,12 @@ OPAQUE = 128
 """Alpha from which on a pixel is seen."""
 
 
-class PictureKind(Enum):
-    """What a picture means by its shades."""
+class Shading(Enum):
+    """What a picture means by its shades, as a user names it."""
 
     RECOGNIZED = "recognized"
-    LIGHT_IS_FREE = "light is free"
-    DARK_IS_FREE = "dark is free"
+    LIGHT_IS_FREE = "light-is-free"
+    DARK_IS_FREE = "dark-is-free"
     LINES = "lines"
 
 
@@ -86,36 +83,20 @@ class Picture:
         return float(np.hypot(height, width))
 
 
-def read_raster(path: Path, kind: PictureKind = PictureKind.RECOGNIZED) -> SchematicMap:
-    """Read a picture as a drawing in pixels, y up.
+def sheet_or_plan(picture: Picture, shading: Shading, path: Path) -> Sheet | SchematicMap:
+    """Find the marks of a line drawing, or the free space of a filled plan, in a picture.
 
-    Raises FileError if it cannot be read or shows neither walls nor free space.
+    Both are in pixels, y up. Raises FileError if a filled plan shows no free space.
     """
-    seen = read_sheet_or_plan(path, kind)
-    if isinstance(seen, SchematicMap):
-        return seen
-    try:
-        return interpret(seen).sketch
-    except NoWallsError as error:
-        raise FileError("a line drawing must show at least one stroke, found none", path) from error
-
-
-def read_sheet_or_plan(path: Path, kind: PictureKind) -> Sheet | SchematicMap:
-    """Read the marks of a line drawing, or the free space of a filled plan."""
-    return sheet_or_plan(read_picture(path), kind, path)
-
-
-def sheet_or_plan(picture: Picture, kind: PictureKind, path: Path) -> Sheet | SchematicMap:
-    """Find the marks of a line drawing, or the free space of a filled plan, in a picture."""
     from pilotage.io.picture import sheet_of
 
-    if kind is PictureKind.RECOGNIZED:
-        kind = recognize(picture)
-    if kind is PictureKind.LINES:
+    if shading is Shading.RECOGNIZED:
+        shading = recognize(picture)
+    if shading is Shading.LINES:
         return sheet_of(picture.colors, source=str(path))
     light = picture.shades >= LIGHT
     return from_free_space(
-        light if kind is PictureKind.LIGHT_IS_FREE else picture.shades < 1.0 - LIGHT + DARK, path
+        light if shading is Shading.LIGHT_IS_FREE else picture.shades < 1.0 - LIGHT + DARK, path
     )
 
 
@@ -153,20 +134,20 @@ def edge_of(pixels: NDArray[Scalar]) -> NDArray[Scalar]:
     return np.concatenate([strip.reshape(-1, *pixels.shape[2:]) for strip in strips])
 
 
-def recognize(picture: Picture) -> PictureKind:
+def recognize(picture: Picture) -> Shading:
     """Tell what a picture means by its shades; the rules stand at the head of this module."""
     from pilotage.io.picture.photo import is_photo
 
     if is_photo(picture.colors):
-        return PictureKind.LINES
+        return Shading.LINES
     shades = picture.shades
     ground = float(np.median(edge_of(shades)))
     if DARK < ground < LIGHT and np.mean(shades >= LIGHT) >= FLOOR_SHARE:
-        return PictureKind.LIGHT_IS_FREE
+        return Shading.LIGHT_IS_FREE
     ink = shades < 1.0 - LIGHT + DARK if ground > DARK else shades >= LIGHT
     if mean_width(ink) < PEN_WIDTH * picture.diagonal:
-        return PictureKind.LINES
-    return PictureKind.DARK_IS_FREE if ground > DARK else PictureKind.LIGHT_IS_FREE
+        return Shading.LINES
+    return Shading.DARK_IS_FREE if ground > DARK else Shading.LIGHT_IS_FREE
 
 
 def mean_width(ink: Mask) -> float:

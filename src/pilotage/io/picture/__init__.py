@@ -5,6 +5,6 @@ In the order of the work: `photo` finds the paper and straightens it, `light` ta
 of the rest. `sheet` puts them together.
 """
 
-from pilotage.io.picture.sheet import read_picture_sheet, sheet_of
+from pilotage.io.picture.sheet import sheet_of
 
-__all__ = ["read_picture_sheet", "sheet_of"]
+__all__ = ["sheet_of"]

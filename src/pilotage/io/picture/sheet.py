@@ -1,7 +1,6 @@
 """From a picture to a sheet of marks."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,16 +34,6 @@ class Plane:
     def points(self, pixels: Array) -> Array:
         """Carry points (n, 2), y down, to the plane, y up."""
         return np.asarray((pixels * self.scale + self.corner) * (1.0, -1.0))
-
-
-def read_picture_sheet(path: Path) -> Sheet:
-    """Read a drawing by pen, pencil or program from a picture of it.
-
-    Raises FileError if it cannot be read.
-    """
-    from pilotage.io.raster import read_picture
-
-    return sheet_of(read_picture(path).colors, source=str(path))
 
 
 def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
