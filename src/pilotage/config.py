@@ -13,7 +13,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from pilotage.errors import SettingsError
+from pilotage.errors import SettingsError, shown
 from pilotage.io.toml_files import read_toml
 from pilotage.localization import LocalizerSettings
 from pilotage.navigation import NavigatorSettings
@@ -25,9 +25,6 @@ PLAIN = {float: "a number", int: "a whole number", bool: "true or false", str: "
 
 LARGEST = 2**53
 """Larger whole numbers are not exact as floating point numbers."""
-
-LONGEST = 60
-"""Letters of a wrong value that a message repeats."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,15 +166,6 @@ def converted(hint: Any, value: object, name: str) -> object:  # noqa: ANN401  #
     if isinstance(value, float) and not math.isfinite(value):
         raise SettingsError(f"setting {name} must be finite, got {value}")
     return value
-
-
-def shown(value: object) -> str:
-    """Write a wrong value for a message, shortened if it is long."""
-    try:
-        text = repr(value)
-    except ValueError:  # Python writes no more than some thousand digits
-        return "a number of thousands of digits"
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def converted_list(kinds: tuple[Any, ...], value: object, name: str) -> tuple[object, ...]:

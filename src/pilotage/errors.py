@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+LONGEST = 60
+"""Letters of a wrong value that a message repeats."""
+
 
 class PilotageError(Exception):
     """The root of all errors that `pilotage` raises on purpose."""
@@ -25,3 +28,12 @@ class FileError(PilotageError):
 
 class SettingsError(PilotageError, ValueError):
     """A setting is unknown or invalid."""
+
+
+def shown(value: object) -> str:
+    """Write a wrong value for a message, shortened if it is long."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no more than some thousand digits
+        return "a number of thousands of digits"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."

@@ -17,8 +17,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
-from pilotage.errors import FileError
+from pilotage.errors import FileError, shown
 from pilotage.interpretation import Role
 from pilotage.io.raster import Shading
 from pilotage.io.toml_files import read_toml
@@ -29,12 +30,10 @@ SUFFIX = ".toml"
 LARGEST_COORDINATE = 1e9
 """No drawing is larger."""
 
-LONGEST = 60
-"""Letters of a wrong value that a message repeats."""
-
 KEYS = ("page", "shading", "layers", "labels")
 
 Point = tuple[float, float]
+Choice = TypeVar("Choice", Role, Shading)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +99,7 @@ def role_of(name: str, word: object) -> Role:
 
     Raises ValueError that lists the roles.
     """
-    for role in Role:
-        if word == role.value:
-            return role
-    raise ValueError(
-        f"layer {name!r} must be one of {', '.join(role.value for role in Role)}, got {shown(word)}"
-    )
+    return chosen(Role, word, f"layer {name!r}")
 
 
 def points_of(name: str, where: object) -> list[Point]:
@@ -141,19 +135,19 @@ def page_of(value: object) -> str | None:
 
 
 def shading_of(word: object) -> Shading:
-    """Read a shading."""
-    for shading in Shading:
-        if word == shading.value:
-            return shading
-    raise ValueError(
-        f"shading must be one of {', '.join(shading.value for shading in Shading)}, got {shown(word)}"
-    )
+    """Read a shading.
+
+    Raises ValueError that lists them.
+    """
+    return chosen(Shading, word, "shading")
 
 
-def shown(value: object) -> str:
-    """Write a wrong value for a message, shortened if it is long."""
-    try:
-        text = repr(value)
-    except ValueError:  # Python writes no more than some thousand digits
-        return "a number of thousands of digits"
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
+def chosen(kind: type[Choice], word: object, what: str) -> Choice:
+    """Find the member of an enumeration by its value.
+
+    Raises ValueError that lists the members.
+    """
+    for member in kind:
+        if word == member.value:
+            return member
+    raise ValueError(f"{what} must be one of {', '.join(member.value for member in kind)}, got {shown(word)}")
