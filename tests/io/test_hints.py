@@ -47,6 +47,7 @@ def test_a_table_is_read(table):
         ('[layers]\nA = "sofa"', "layer 'A' must be one of wall, door"),
         ("[labels]\nA = [1]", "label 'A' must stand at a point"),
         ("[labels]\nA = [1, nan]", "label 'A' must stand at a point"),
+        (f"[labels]\nA = [1, {10**400}]", "label 'A' must stand at a point"),
         ("[labels]\nA = [1, true]", "label 'A' must stand at a point"),
         ("page = 1.5", "page must be a number or a name"),
         ('shading = "dim"', "shading must be one of"),

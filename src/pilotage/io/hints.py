@@ -13,7 +13,6 @@ Beside `office.dxf` it is called `office.dxf.toml`:
     WC = [[40, 20], [200, 20]]
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -117,12 +116,7 @@ def point_of(name: str, where: object) -> Point:
 
 def is_coordinate(value: object) -> bool:
     """Tell whether a value is a number that can stand on a drawing."""
-    return (
-        isinstance(value, int | float)
-        and not isinstance(value, bool)
-        and math.isfinite(value)
-        and abs(value) <= LARGEST_COORDINATE
-    )
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_COORDINATE
 
 
 def page_of(value: object) -> str | None:
