@@ -68,6 +68,15 @@ def test_dashes_and_weights(document, tmp_path):
     assert heavy.width == pytest.approx(0.5)
 
 
+def test_the_weight_of_a_line_of_no_length_is_not_given_to_the_next(document, tmp_path):
+    space = document.modelspace()
+    space.add_line((0, 0), (0, 0), dxfattribs={"lineweight": 50})
+    space.add_line((0, 0), (420, 0))
+    (mark,) = read(document, tmp_path).marks
+    assert mark.pen is not None
+    assert mark.pen.width == 0.0
+
+
 def test_blocks_in_blocks_carry_names_and_groups(document, tmp_path):
     document.layers.add("A-DOOR")
     leaf = document.blocks.new("LEAF")

@@ -112,7 +112,7 @@ class Walk:
 
     def paint(self, entity: DXFGraphic, look: Look, place: Place) -> None:
         """Add the line or the area of one entity."""
-        pen, fill, names = None, None, place.names
+        pen, fill, names, weight = None, None, place.names, 0.0
         if isinstance(entity, DXFPolygon):
             lines = hatch_lines(entity)
             pen, fill = (None, look.color) if lines is None else (look.pen(0.0), None)
@@ -122,11 +122,14 @@ class Walk:
         else:
             width = width_of(entity)
             if width == 0.0 and look.weight > DEFAULT_WEIGHT:
-                self.weights[len(self.builder.marks)] = look.weight / 100.0
+                weight = look.weight / 100.0
             outlines, pen = list(outlines_of(entity)), look.pen(width)
+        index = len(self.builder.marks)
         self.builder.add_mark(
             outlines, pen=pen, fill=fill, names=names, groups=place.groups, source=place.source
         )
+        if weight and len(self.builder.marks) > index:  # a line of no length gives no mark
+            self.weights[index] = weight
 
     def read_insert(self, insert: Insert, look: Look, place: Place) -> None:
         """Read what an insertion of a block shows, and its attributes."""
