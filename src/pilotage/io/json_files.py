@@ -19,9 +19,7 @@ def read_json(path: Path, kind: str) -> Json:
     Raises FileError if it is missing or damaged.
     """
     check_regular(path)
-    content = read_bytes(path)
-    if len(content) > LARGEST:
-        raise FileError(f"{kind} must have at most {LARGEST // 1_000_000} MB", path)
+    content = read_bytes(path, LARGEST)
     try:
         found = json.loads(content.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:

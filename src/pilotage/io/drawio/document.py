@@ -31,9 +31,7 @@ def read_diagrams(path: Path) -> list[Diagram]:
     Raises FileError if it is missing or damaged, or has no page.
     """
     check_regular(path)
-    content = read_bytes(path)
-    if len(content) > LARGEST:
-        raise FileError(f"a draw.io file must have at most {LARGEST // 1_000_000} MB", path)
+    content = read_bytes(path, LARGEST)
     root = parse(content, path)
     if root.tag == MODEL:
         return [Diagram("", root)]

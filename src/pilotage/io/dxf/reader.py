@@ -51,9 +51,7 @@ def read_dxf(path: Path) -> Sheet:
 def read_document(path: Path) -> "Drawing":
     """Read a DXF file, repairing what can be repaired."""
     check_regular(path)
-    content = read_bytes(path)
-    if len(content) > LARGEST:
-        raise FileError(f"a DXF file must have at most {LARGEST // 1_000_000} MB", path)
+    content = read_bytes(path, LARGEST)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # else it writes warnings to the terminal
     from ezdxf import recover
 

@@ -26,9 +26,7 @@ def read_osm(path: Path, level: str | None = None) -> Sheet:
     Raises FileError if it is missing or damaged, has no such level, or shows nothing.
     """
     check_regular(path)
-    content = read_bytes(path)
-    if len(content) > LARGEST:
-        raise FileError(f"an OpenStreetMap file must have at most {LARGEST // 1_000_000} MB", path)
+    content = read_bytes(path, LARGEST)
     try:
         root = ET.fromstring(content)  # noqa: S314  # expat fetches nothing and limits the growth of entities
     except (ET.ParseError, ValueError, LookupError) as error:

@@ -32,9 +32,7 @@ def opened(path: Path) -> Iterator["pypdfium2.PdfDocument"]:
     Raises FileError if it is missing, damaged, locked by a password, or has no page.
     """
     check_regular(path)
-    content = read_bytes(path)
-    if len(content) > LARGEST:
-        raise FileError(f"a PDF file must have at most {LARGEST // 1_000_000} MB", path)
+    content = read_bytes(path, LARGEST)
     import pypdfium2
 
     try:
