@@ -1,5 +1,7 @@
 """Colors as drawing programs write them."""
 
+from collections.abc import Sequence
+
 from pilotage.interpretation.sheet import Color
 
 NOTHING = frozenset(("", "none", "transparent", "inherit"))
@@ -25,5 +27,14 @@ def read_color(text: str, opacity: float = 1.0) -> Color | None:
     share = min(max(opacity, 0.0), 1.0) * (alpha[0] / 255.0 if alpha else 1.0)
     if share <= 0.0:
         return None
-    mixed = [1.0 - share * (1.0 - value / 255.0) for value in (red, green, blue)]
-    return mixed[0], mixed[1], mixed[2]
+    return on_paper((red, green, blue), share)
+
+
+def on_paper(rgb: Sequence[int], opacity: float) -> Color:
+    """Return the color that red, green and blue from 0 to 255 have on white paper; opacity is from 0 to 1.
+
+    >>> on_paper((255, 0, 0), 0.5)
+    (1.0, 0.5, 0.5)
+    """
+    red, green, blue = (1.0 - opacity * (1.0 - value / 255.0) for value in rgb)
+    return red, green, blue

@@ -9,6 +9,7 @@ import pypdfium2.raw as pdfium
 
 from pilotage.geometry import Affine2, Array
 from pilotage.interpretation.sheet import Color
+from pilotage.io.colors import on_paper
 from pilotage.io.curves import bezier
 from pilotage.io.pdf.frame import affine
 
@@ -91,9 +92,7 @@ def color_of(handle: Handle, read: Callable[..., int]) -> Color | None:
     red, green, blue, alpha = (ctypes.c_uint() for _ in range(4))
     if not read(handle, red, green, blue, alpha) or alpha.value == 0:
         return None
-    share = alpha.value / 255.0
-    mixed = [1.0 - share * (1.0 - value.value / 255.0) for value in (red, green, blue)]
-    return mixed[0], mixed[1], mixed[2]
+    return on_paper((red.value, green.value, blue.value), alpha.value / 255.0)
 
 
 def stroke_of(handle: Handle) -> tuple[float, bool]:

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import svgelements
 
-from pilotage.interpretation import WHITE, Color, Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
+from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.reader import FLATNESS, Shape, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
@@ -74,22 +75,14 @@ def read_pen(drawn: Drawn) -> Pen:
 def color_of(drawn: Drawn, name: str) -> Color:
     """Read the color of "stroke" or "fill" as it looks on white paper."""
     color = svgelements.Color(drawn.style.paint(name))
-    share = opacity(drawn, name)
-    red, green, blue = (
-        share * channel / 255.0 + (1.0 - share) * white
-        for channel, white in zip((color.red, color.green, color.blue), WHITE, strict=True)
-    )
-    return red, green, blue
+    return on_paper((color.red, color.green, color.blue), opacity(drawn, name))
 
 
 def opacity(drawn: Drawn, name: str) -> float:
     """Tell how much of what lies below the paint of "stroke" or "fill" hides, 0 to 1."""
     color = svgelements.Color(drawn.style.paint(name))
-    return (
-        float(color.opacity)
-        * drawn.style.opacity
-        * leading_number(drawn.style.values[f"{name}-opacity"], 1.0)
-    )
+    own = leading_number(drawn.style.values[f"{name}-opacity"], 1.0)
+    return min(float(color.opacity) * drawn.style.opacity * own, 1.0)
 
 
 def stands(item: Drawn) -> bool:
