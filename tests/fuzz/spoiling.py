@@ -6,7 +6,10 @@ import numpy as np
 from hypothesis import strategies as st
 from tests.fuzz.seeds import encoded, seeds
 
-NASTY = b"0 -1 1e308 -1e308 1e-308 nan inf -inf 1e5 -1e9 99999999999999999999 0x10 1e 2,5 .5.5 1e400".split()
+NASTY = [
+    *b"0 -1 1e308 -1e308 1e-308 nan inf -inf 1e5 -1e9 99999999999999999999 0x10 1e 2,5 .5.5 1e400".split(),
+    b"9" * 400,  # a whole number that no float can hold
+]
 """Numbers that break what is not made for them."""
 
 NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
