@@ -143,7 +143,7 @@ def test_a_negated_map_server_file_turns_shades_round(tmp_path):
     ("text", "rule"),
     [
         ("resolution: 0.05\n", "must name an image"),
-        ("image: map.png\nfree_thresh: low\n", "must give numbers"),
+        ("image: map.png\nfree_thresh: low\n", "must give free_thresh as a number"),
         ("image: none.png\n", "there is no such file"),
     ],
 )

@@ -11,7 +11,8 @@ from pilotage.errors import FileError
 from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
 from pilotage.io.hints import DrawingHints, read_hints, role_of, shading_of, table_beside
 from pilotage.io.kinds import Kind, recognize
-from pilotage.io.raster import Picture, Shading, read_map_server, read_picture, sheet_or_plan
+from pilotage.io.map_server import read_map_server
+from pilotage.io.raster import Picture, Shading, read_picture, sheet_or_plan
 from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
 

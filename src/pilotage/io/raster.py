@@ -1,4 +1,4 @@
-"""Read a drawing from a picture: a filled plan, a line drawing, or a ROS map_server map.
+"""Read a drawing from a picture: a filled plan or a line drawing.
 
 How the shading is recognized, and nowhere else (`recognize`): by what touches the edge of the picture.
 
@@ -169,35 +169,3 @@ def from_free_space(free: Mask, path: Path) -> SchematicMap:
     if not strokes:
         raise FileError("a filled plan must show free space, found none", path)
     return SchematicMap(strokes, source=str(path), y_down=True, contours=True)
-
-
-def read_map_server(path: Path) -> SchematicMap:
-    """Read a ROS map_server map: a YAML file that names a picture and says which shades are free.
-
-    Raises FileError if either file cannot be read, or no pixel is free.
-    """
-    entries = read_entries(path)
-    if "image" not in entries:
-        raise FileError("a map_server file must name an image", path)
-    picture = read_picture(path.parent / entries["image"])
-    try:
-        free_below = float(entries.get("free_thresh", "0.196"))
-        negated = bool(int(entries.get("negate", "0")))
-    except ValueError as error:
-        raise FileError(f"a map_server file must give numbers ({error})", path) from error
-    gray = picture.colors.mean(axis=2)
-    occupied = gray if negated else 1.0 - gray
-    return from_free_space(occupied < free_below, path)
-
-
-def read_entries(path: Path) -> dict[str, str]:
-    """Read the plain `key: value` lines of a YAML file."""
-    check_regular(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError as error:
-        raise FileError("there is no such file", path) from error
-    except (OSError, ValueError) as error:
-        raise FileError(f"a map_server file cannot be read ({error})", path) from error
-    pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
-    return {key.strip(): value.strip().strip("'\"") for key, value in pairs}

@@ -13,13 +13,10 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Pose2
-from pilotage.io.raster import Mask, read_entries, read_picture
+from pilotage.io.map_server import free_cells, number, read_entries
+from pilotage.io.raster import Mask
 from pilotage.io.svg import read_svg_world
 from pilotage.simulation import World
-
-FREE_BELOW = 0.196
-"""Occupancy below which map_server takes a cell for free, if the file does not say."""
-
 
 LEAST_ROOM = 0.1
 """Radius of the smallest robot that a world must have room for [m]."""
@@ -58,8 +55,6 @@ def has_room(world: World) -> bool:
 def read_map_server_world(path: Path) -> World:
     """Read a map_server map as a world: occupied and unknown cells are solid, and so is all around it."""
     entries = read_entries(path)
-    if "image" not in entries:
-        raise FileError("a map_server file must name an image", path)
     resolution = number(entries, "resolution", path)
     if not 0.0 < resolution <= COARSEST:
         raise FileError(
@@ -67,26 +62,12 @@ def read_map_server_world(path: Path) -> World:
             path,
         )
     world_from_map = origin(entries, path)
-    gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
-    occupied = gray if number(entries, "negate", path, 0.0) else 1.0 - gray
-    free = occupied < number(entries, "free_thresh", path, FREE_BELOW)
+    free = free_cells(entries, path)
     if not free.any():
         raise FileError("a world must have free space, found no free cell", path)
     segments = borders(free[::-1]) * resolution  # rows of a map count from its lower edge
     ends = world_from_map @ segments.reshape(-1, 2)
     return World(ends.reshape(-1, 4), contours=True)
-
-
-def number(entries: dict[str, str], name: str, path: Path, otherwise: float | None = None) -> float:
-    """Read an entry that must be a number."""
-    if name not in entries and otherwise is not None:
-        return otherwise
-    try:
-        return float(entries.get(name, ""))
-    except ValueError as error:
-        raise FileError(
-            f"a map_server file must give {name} as a number, got {entries.get(name)!r}", path
-        ) from error
 
 
 def origin(entries: dict[str, str], path: Path) -> Pose2:

@@ -1,0 +1,70 @@
+"""Read a ROS map_server map: a YAML file that names a picture and says which shades are free.
+
+As a drawing it has no scale; `io/world` believes its resolution and its origin, too.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from pilotage.errors import FileError
+from pilotage.io.files import check_regular
+from pilotage.io.raster import Mask, from_free_space, read_picture
+from pilotage.maps import SchematicMap
+
+FREE_BELOW = 0.196
+"""Occupancy below which map_server takes a cell for free, if the file does not say."""
+
+
+def read_map_server(path: Path) -> SchematicMap:
+    """Read a map as a drawing in cells, y up and so below 0: the contours of free space.
+
+    Raises FileError if either file cannot be read, or no cell is free.
+    """
+    return from_free_space(free_cells(read_entries(path), path), path)
+
+
+def read_entries(path: Path) -> dict[str, str]:
+    """Read the plain `key: value` lines of the YAML file; one of them names an image.
+
+    Raises FileError if it cannot be read, or names no image.
+    """
+    check_regular(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
+        raise FileError("there is no such file", path) from error
+    except (OSError, ValueError) as error:
+        raise FileError(f"a map_server file cannot be read ({error})", path) from error
+    pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
+    entries = {key.strip(): value.strip().strip("'\"") for key, value in pairs}
+    if "image" not in entries:
+        raise FileError("a map_server file must name an image", path)
+    return entries
+
+
+def free_cells(entries: dict[str, str], path: Path) -> Mask:
+    """Tell which cells are free, (height, width), the upper row first; `path` is the YAML file's.
+
+    Raises FileError if the picture cannot be read, or an entry is no number.
+    """
+    free_below = number(entries, "free_thresh", path, FREE_BELOW)
+    negated = bool(number(entries, "negate", path, 0.0))
+    gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
+    occupied = gray if negated else 1.0 - gray
+    return np.asarray(occupied < free_below)
+
+
+def number(entries: dict[str, str], name: str, path: Path, otherwise: float | None = None) -> float:
+    """Read an entry that must be a number; `otherwise` stands for a missing one.
+
+    Raises FileError that names the entry and its value.
+    """
+    if name not in entries and otherwise is not None:
+        return otherwise
+    try:
+        return float(entries.get(name, ""))
+    except ValueError as error:
+        raise FileError(
+            f"a map_server file must give {name} as a number, got {entries.get(name)!r}", path
+        ) from error
