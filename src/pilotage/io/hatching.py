@@ -10,7 +10,7 @@ import shapely
 
 from pilotage.geometry import Array, Polyline
 from pilotage.interpretation.sheet import Mark, Pen
-from pilotage.io.sheet_builder import outline_through
+from pilotage.io.sheet_builder import outlines_of_area
 
 FEWEST_LINES = 50
 """A hatching has at least so many lines of one direction and one pen."""
@@ -78,13 +78,7 @@ def covered_areas(lines: Array, width: float) -> Iterator[tuple[list[int], tuple
     strip, part = shapely.STRtree(wide).query(shapely.point_on_surface(strips), predicate="intersects")
     for k, area in enumerate(wide):
         covered = [line for chain in strip[part == k] for line in members[chain]]
-        smooth = shapely.simplify(area, DETAIL * width)
-        found = [
-            outline_through(shapely.get_coordinates(ring), closed=True)
-            for polygon in shapely.get_parts(smooth)
-            for ring in (polygon.exterior, *polygon.interiors)
-        ]
-        rings = tuple(ring for ring in found if ring is not None)
+        rings = tuple(outlines_of_area(shapely.simplify(area, DETAIL * width)))
         if covered and rings:
             yield covered, rings
 

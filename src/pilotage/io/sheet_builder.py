@@ -8,6 +8,7 @@ from itertools import count
 from pathlib import Path
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike
 
 from pilotage.errors import FileError
@@ -151,6 +152,14 @@ def outline_through(points: ArrayLike, *, closed: bool = False) -> Polyline | No
     if len(vertices) < 2:
         return None
     return Polyline(vertices, closed and len(vertices) > 2)
+
+
+def outlines_of_area(area: shapely.Geometry) -> list[Polyline]:
+    """List the rings around the polygons of an area and around their holes."""
+    polygons = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon"]
+    rings = [ring for polygon in polygons for ring in (polygon.exterior, *polygon.interiors)]
+    found = [outline_through(shapely.get_coordinates(ring), closed=True) for ring in rings]
+    return [outline for outline in found if outline is not None]
 
 
 def plain_names(names: Iterable[str]) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from pilotage.geometry import Array
 from pilotage.interpretation.sheet import BLACK, Pen, Sheet, Text
 from pilotage.io.indoor.features import Feature, Kind
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.sheet_builder import MOST_MARKS, SheetBuilder, outline_through
+from pilotage.io.sheet_builder import MOST_MARKS, SheetBuilder, outline_through, outlines_of_area
 
 EARTH = 6_371_008.8
 """Mean radius of the earth [m]."""
@@ -142,11 +142,11 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry) -> No
     is_solid = feature.kind is Kind.COLUMN
     if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, Kind.STAIRS, Kind.ELEVATOR):
         for part in shapely.get_parts(shape):
-            rings = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
+            is_area = part.geom_type == "Polygon"
             builder.add_mark(
-                [outline_through(shapely.get_coordinates(ring)) for ring in rings],
+                outlines_of_area(part) if is_area else [outline_through(shapely.get_coordinates(part))],
                 pen=Pen(BLACK),
-                fill=BLACK if is_solid and part.geom_type == "Polygon" else None,
+                fill=BLACK if is_solid and is_area else None,
                 names=names,
                 groups=group,
                 source=feature.source,

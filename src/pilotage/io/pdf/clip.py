@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Polyline
-from pilotage.io.sheet_builder import outline_through
+from pilotage.io.sheet_builder import outline_through, outlines_of_area
 
 
 def area_of(rings: Sequence[Array]) -> shapely.Geometry:
@@ -38,12 +37,5 @@ def clipped_lines(outlines: Sequence[Polyline], clip: shapely.Geometry) -> list[
 
 def clipped_area(outlines: Sequence[Polyline], clip: shapely.Geometry) -> list[Polyline]:
     """Return the rings of the part of an area inside a clip."""
-    area = shapely.intersection(area_of([outline.vertices for outline in outlines]), clip)
-    rings = [
-        np.asarray(ring.coords)
-        for part in shapely.get_parts(area)
-        if part.geom_type == "Polygon"
-        for ring in (part.exterior, *part.interiors)
-    ]
-    found = [outline_through(ring, closed=True) for ring in rings]
-    return [outline for outline in found if outline is not None]
+    area = area_of([outline.vertices for outline in outlines])
+    return outlines_of_area(shapely.intersection(area, clip))
