@@ -8,7 +8,7 @@ import numpy as np
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.glyphs import find_glyphs
-from pilotage.interpretation.meanings import Findings, Meaning, find_meanings
+from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
@@ -22,7 +22,9 @@ GRAIN = 0.0005
 
 
 NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
-"""What a name makes one of these is no wall."""
+"""What a name makes one of these is no wall; windows and stairs close rooms as walls do."""
+
+NOT_NAMED = (Role.WALL, "")
 
 
 class NoWallsError(ValueError):
@@ -45,7 +47,6 @@ class Interpretation:
     sheet: Sheet
     meanings: tuple[Meaning, ...]  # one for each mark of the sheet
     text_meanings: tuple[Meaning, ...] = ()  # one for each text of the sheet
-    assumptions: tuple[str, ...] = ()  # what was assumed of the whole, in words a user understands
 
 
 def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
@@ -65,10 +66,10 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     guessed = {
         mark.number: role for mark in visible if (role := guessed_role(sheet.marks[mark.number].names))
     }
-    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] in NO_WALLS}
+    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     doors = find_doors(sheet, visible, diagonal)
     left = without_doors(visible, doors)
-    seen = [mark for mark in left if mark.number not in named]
+    seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     walls = find_walls(
         seen,
         sheet,
@@ -98,7 +99,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     )
     meanings = find_meanings(
         sheet,
-        Findings(
+        Evidence(
             {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
             set(paper.sheets),
             letters,

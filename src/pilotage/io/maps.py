@@ -66,7 +66,7 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
         remarks.append(f"hints are taken from {table.name}")
     sketch, interpretation = read_drawing(file, hints)
     if interpretation is not None:
-        remarks += [*interpretation.assumptions, *unknown_layers(interpretation, hints.layers)]
+        remarks += unknown_layers(interpretation, hints.layers)
     elif hints.layers:
         remarks.append("a picture has no layers")
     labels = tuple(
