@@ -7,7 +7,7 @@ import pytest
 
 from flats import BLACK, LABELS, OUTSIDE, RED, ROOMS, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.geometry import Polyline
-from pilotage.interpretation import Hints, Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
+from pilotage.interpretation import Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
 
 
 def test_plain_strokes_stay_as_they_were_drawn():
@@ -65,7 +65,7 @@ def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
 def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
     sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))
 
-    guessed, told = interpret(sheet), interpret(sheet, Hints(layers={layer: Role.WALL}))
+    guessed, told = interpret(sheet), interpret(sheet, {layer: Role.WALL})
 
     assert (Role.FURNITURE, f"its name is {layer!r}") == (
         guessed.meanings[-1].role,

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from flats import BLACK, OUTSIDE, WHITE, WITH_GAP, are_joined, box, graph_of, stroke
+from flats import BLACK, WHITE, WITH_GAP, are_joined, box, graph_of, stroke
 from pilotage.geometry import Polyline
-from pilotage.interpretation import Hints, Mark, Pen, Role, Sheet, Text, interpret
+from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.names import guessed_role
 from pilotage.interpretation.words import find_names
-from pilotage.maps import Label
 
 NIGHT = (0.1, 0.1, 0.15)
 
@@ -86,7 +85,7 @@ def test_names_that_say_nothing_tell_no_role(name):
 def test_the_innermost_name_tells_the_role_and_a_hint_wins_over_all():
     assert (Role.FURNITURE, "its name is 'chair'") == guessed_role(["wall", "chair"])
     line = stroke((10, 10), (20, 10), names=("goal", "x7"))
-    said = interpret(Sheet((*WITH_GAP, line)), Hints(layers={"x7": Role.IGNORE}))
+    said = interpret(Sheet((*WITH_GAP, line)), {"x7": Role.IGNORE})
     assert (Role.IGNORE, "you said that 'x7' is ignore") == (
         said.meanings[-1].role,
         said.meanings[-1].reason,
@@ -102,12 +101,6 @@ def test_marks_and_texts_named_start_and_goal_are_where_they_stand():
 
     assert ((12.0, 12.0), (80.0, 40.0), ()) == (sketch.start, sketch.goal, sketch.labels)
     assert len(WITH_GAP) == len(sketch.strokes)
-
-
-def test_labels_said_by_a_person_are_added():
-    hinted = interpret(Sheet((OUTSIDE,)), Hints(labels=(Label("attic", (1.0, 2.0)),)))
-
-    assert (Label("attic", (1.0, 2.0)),) == hinted.sketch.labels
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.7, np.pi / 2.0, np.pi])

@@ -1,7 +1,8 @@
 """From a sheet to a drawing of a building: give each mark a role, and build walls and openings from them."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -32,14 +33,6 @@ class NoWallsError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Hints:
-    """What a person says about a drawing where guessing fails."""
-
-    layers: Mapping[str, Role] = field(default_factory=dict)  # a layer, class, id or block name -> its role
-    labels: tuple[Label, ...] = ()  # names of rooms, y up [drawing units]
-
-
-@dataclass(frozen=True, slots=True)
 class Interpretation:
     """What was understood of a sheet."""
 
@@ -49,13 +42,13 @@ class Interpretation:
     text_meanings: tuple[Meaning, ...] = ()  # one for each text of the sheet
 
 
-def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
+def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -> Interpretation:
     """Tell walls from all else.
 
-    Raises NoWallsError if nothing on the sheet can be a wall.
+    `layers` tells the roles of layers, classes, ids and blocks where guessing fails. Raises NoWallsError if
+    nothing on the sheet can be a wall.
     """
-    hints = hints or Hints()
-    told = [told_role(mark.names, hints.layers) for mark in sheet.marks]
+    told = [told_role(mark.names, layers) for mark in sheet.marks]
     open_to_guess = [number for number, role in enumerate(told) if role is None]
     paper = find_paper(sheet, open_to_guess)
     drawn = [number for number in open_to_guess if number not in paper.sheets]
@@ -81,7 +74,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
+    text_roles = [told_role(text.names, layers) or (Role.LABEL, "words") for text in sheet.texts]
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
     names = find_names([(number, sheet.texts[number]) for number in spoken])
     labels = tuple(Label(name.words, name.position) for name in names)
@@ -90,7 +83,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         strokes,
         start=start,
         goal=goal,
-        labels=labels + hints.labels,
+        labels=labels,
         solids=tuple(polyline for ring in rings_of(walls.solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
