@@ -6,6 +6,7 @@ from pilotage.geometry.arrays import Array, frozen_array, frozen_points
 from pilotage.geometry.homography import Homography
 from pilotage.geometry.polyline import Polyline, segments_of
 from pilotage.geometry.pose import Pose2
+from pilotage.geometry.rings import fit_circle, signed_area
 from pilotage.geometry.similarity import Similarity2
 from pilotage.geometry.span import Span
 from pilotage.geometry.trajectory import Trajectory
@@ -21,8 +22,10 @@ __all__ = [
     "Span",
     "Trajectory",
     "Twist",
+    "fit_circle",
     "frozen_array",
     "frozen_points",
     "segments_of",
+    "signed_area",
     "wrap_angle",
 ]

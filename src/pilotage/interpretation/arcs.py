@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array, Polyline, fit_circle
 
 LEAST_CHORDS = 3
 """An arc is cut into at least so many chords; fewer are corners of a shape."""
@@ -78,11 +78,7 @@ def bows(steps: Array, lengths: Array) -> Iterator[tuple[int, int]]:
 
 def fitted(points: Array) -> Arc | None:
     """Fit a circle to vertices (n, 2); None if they do not lie on a door's arc."""
-    shifted = points - points.mean(axis=0)
-    matrix = np.column_stack([2.0 * shifted, np.ones(len(points))])
-    solution, *_ = np.linalg.lstsq(matrix, (shifted**2).sum(axis=1), rcond=None)
-    radius = float(np.sqrt(max(solution[2] + solution[0] ** 2 + solution[1] ** 2, 0.0)))
-    center = solution[:2] + points.mean(axis=0)
+    center, radius = fit_circle(points)
     spokes = points - center
     strays = np.abs(np.hypot(*spokes.T) - radius)
     if radius == 0.0 or strays.max() > ROUNDNESS * radius:

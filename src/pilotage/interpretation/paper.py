@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.geometry import Polyline
+from pilotage.geometry import Polyline, signed_area
 from pilotage.interpretation.sheet import WHITE, Bounds, Color, Mark, Sheet
 
 ROUNDING = 1e-6
@@ -82,5 +82,4 @@ def is_box(mark: Mark) -> bool:
 
 def area_of(outline: Polyline) -> float:
     """Return the area that an outline encloses once it is closed."""
-    x, y = (outline.vertices - outline.vertices[0]).T
-    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2.0
+    return abs(signed_area(outline.vertices))

@@ -10,7 +10,7 @@ import pypdfium2.raw as pdfium
 import shapely
 
 from pilotage.errors import FileError
-from pilotage.geometry import Affine2, Array, Polyline
+from pilotage.geometry import Affine2, Polyline, signed_area
 from pilotage.interpretation.sheet import Color, Pen, Sheet
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
@@ -188,9 +188,3 @@ def turn_alike(outlines: Sequence[Polyline]) -> bool:
     """Tell whether all outlines turn the same way: by the winding rule none is then a hole."""
     signs = {float(np.sign(signed_area(outline.vertices))) for outline in outlines}
     return len(signs - {0.0}) <= 1
-
-
-def signed_area(points: Array) -> float:
-    """Return the area within points (n, 2), positive if they turn counter-clockwise."""
-    x, y = (points - points[0]).T
-    return float(np.dot(x, np.roll(y, -1)) - np.dot(np.roll(x, -1), y)) / 2.0

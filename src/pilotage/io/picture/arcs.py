@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array
+from pilotage.geometry import Array, fit_circle
 
 CORNER = np.deg2rad(48.0)
 """A line that turns by more than this within a few pixels [rad] has a corner; no door is so tight."""
@@ -116,12 +116,8 @@ def find_arc(piece: Array, pen_width: float, radii: tuple[float, float]) -> tupl
 
 def fit_arc(pixels: Array, pen_width: float, radii: tuple[float, float]) -> Arc | None:
     """Fit a circle to pixels (n, 2); None if they are not the arc of a door."""
-    middle = pixels.mean(axis=0)
-    shifted = pixels - middle
-    matrix = np.column_stack([2.0 * shifted, np.ones(len(pixels))])
-    solution, *_ = np.linalg.lstsq(matrix, (shifted**2).sum(axis=1), rcond=None)
-    radius = float(np.sqrt(max(solution[2] + solution[:2] @ solution[:2], 0.0)))
-    spokes = shifted - solution[:2]
+    center, radius = fit_circle(pixels)
+    spokes = pixels - center
     angles = np.unwrap(np.arctan2(spokes[:, 1], spokes[:, 0]))
     sweep = abs(float(angles[-1] - angles[0]))
     strays = np.abs(np.hypot(*spokes.T) - radius)
@@ -132,7 +128,7 @@ def fit_arc(pixels: Array, pen_width: float, radii: tuple[float, float]) -> Arc 
         or strays.max() > ROUND * radius + pen_width / 2.0
     ):
         return None
-    x, y = (middle + solution[:2]).tolist()
+    x, y = center.tolist()
     return Arc((x, y), radius, float(angles[0]), float(angles[-1]))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import svgelements
 
 from pilotage.errors import FileError
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.style import local_name
@@ -162,8 +162,7 @@ def wall_strokes(walls: Sequence[Shape]) -> Iterator[Polyline]:
     """Flatten the outlines; one that is filled and not stroked is closed, and seen only if it has an area."""
     if not walls:
         return
-    boxes = np.array([wall.bounds for wall in walls])
-    diagonal = float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+    diagonal = diagonal_of(walls)
     if diagonal == 0.0:
         return
     for wall in walls:
@@ -174,10 +173,15 @@ def wall_strokes(walls: Sequence[Shape]) -> Iterator[Polyline]:
                 yield Polyline(stroke.vertices, closed=True)
 
 
+def diagonal_of(shapes: Sequence[Shape]) -> float:
+    """Measure the diagonal of the box around shapes, at least one."""
+    boxes = np.array([shape.bounds for shape in shapes])
+    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+
+
 def area(stroke: Polyline) -> float:
     """Return the area that a stroke encloses once it is closed."""
-    x, y = (stroke.vertices - stroke.vertices[0]).T
-    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2.0
+    return abs(signed_area(stroke.vertices))
 
 
 def flipped(stroke: Polyline) -> Polyline:

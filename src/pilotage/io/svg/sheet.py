@@ -10,7 +10,7 @@ import svgelements
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
 from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
-from pilotage.io.svg.reader import FLATNESS, Shape, flipped, read_content, reading_values
+from pilotage.io.svg.reader import FLATNESS, Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
 from pilotage.io.svg.style import leading_number, local_name
 from pilotage.io.svg.texts import read_texts
@@ -27,20 +27,12 @@ def read_svg_sheet(path: Path) -> Sheet:
     """
     shapes, texts, page = read_content(path)
     with reading_values(path):
-        tolerance = FLATNESS * diagonal_of(shapes)
+        walls = [shape for shape in shapes if shape.drawn.role is Role.WALL]
+        tolerance = FLATNESS * diagonal_of(walls or shapes) if shapes else 0.0
         marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance))
         words = tuple(text for item in texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(marks, words + tuple(outlined_texts(shapes)), bounds, y_down=True, source=str(path))
-
-
-def diagonal_of(shapes: Sequence[Shape]) -> float:
-    """Measure the diagonal of what may be walls, or of all if nothing may."""
-    chosen = [shape for shape in shapes if shape.drawn.role is Role.WALL] or shapes
-    if not chosen:
-        return 0.0
-    boxes = np.array([shape.bounds for shape in chosen])
-    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
 
 
 def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:
