@@ -2,7 +2,7 @@
 
 In the order of the work: `photo` finds the paper and straightens it, `light` takes away shades and floors,
 `ink` finds what was drawn and takes away ruled lines, `text` tells words apart, `trace` makes lines and areas
-of the rest. `sheet` puts them together.
+of the rest, lines along the `skeleton`. `sheet` puts them together.
 """
 
 from pilotage.io.picture.sheet import sheet_of

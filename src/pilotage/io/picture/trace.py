@@ -11,8 +11,8 @@ from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
 from pilotage.io.picture.colors import DARK, brightest, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
+from pilotage.io.picture.skeleton import straightened, trace_runs
 from pilotage.io.picture.width import AreaWidths, width_at
-from pilotage.io.tracing import straightened, trace_runs
 
 Mask = NDArray[np.bool_]
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 
-from pilotage.io.tracing import straightened, trace_runs
+from pilotage.io.picture.skeleton import straightened, trace_runs
 
 
 def inked(*polylines, size=100, width=3):
