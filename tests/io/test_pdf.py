@@ -5,7 +5,7 @@ import pytest
 from PIL import Image, ImageDraw
 
 from pilotage.errors import FileError
-from pilotage.io.pdf import PicturePageError, page_picture, read_pdf, read_picture_page
+from pilotage.io.pdf import PicturePageError, read_pdf, read_picture_page
 from pilotage.io.picture import sheet_of
 from shared_data import needs_plans, plan
 
@@ -133,8 +133,14 @@ def test_a_page_that_is_a_picture_is_traced_in_points(tmp_path):
     picture.save(tmp_path / "scan.pdf", resolution=100.0)
     with pytest.raises(PicturePageError):
         read_pdf(tmp_path / "scan.pdf")
-    assert page_picture(tmp_path / "scan.pdf").shape == (1600, 2000, 3)
-    sheet = read_picture_page(tmp_path / "scan.pdf", None, sheet_of, side=500)
+    shapes = []
+
+    def trace(colors):
+        shapes.append(colors.shape)
+        return sheet_of(colors)
+
+    sheet = read_picture_page(tmp_path / "scan.pdf", None, trace, side=500)
+    assert shapes == [(400, 500, 3)]
     points = np.vstack([outline.vertices for mark in sheet.marks for outline in mark.outlines])
     width, height = 720.0, 576.0
     assert sheet.page == pytest.approx((0, 0, width, height))

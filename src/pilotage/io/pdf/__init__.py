@@ -1,7 +1,6 @@
 """Read a page of a PDF file: its lines and areas, or its picture if it has nothing else."""
 
-from pilotage.io.pdf.document import page_picture
 from pilotage.io.pdf.picture import read_picture_page
 from pilotage.io.pdf.reader import PicturePageError, read_pdf
 
-__all__ = ["PicturePageError", "page_picture", "read_pdf", "read_picture_page"]
+__all__ = ["PicturePageError", "read_pdf", "read_picture_page"]

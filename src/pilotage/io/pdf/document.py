@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from pilotage.errors import FileError
 from pilotage.io.files import check_regular, read_bytes
-from pilotage.io.pages import choose_page
 
 if TYPE_CHECKING:
     import pypdfium2
@@ -79,16 +78,9 @@ def page_names(document: "pypdfium2.PdfDocument") -> list[str]:
     return [str(number + 1) for number in range(len(document))]
 
 
-def page_picture(path: Path, page: str | None = None, side: int = PICTURE_SIDE) -> NDArray[np.uint8]:
-    """Paint a page, (height, width, 3), its longer side of so many pixels.
-
-    Raises FileError if it cannot be read.
-    """
-    with (
-        opened(path) as document,
-        open_page(document, choose_page(page_names(document), page, path), path) as shown,
-    ):
-        bitmap = shown.render(scale=side / max(shown.get_size()), rev_byteorder=True)
-        pixels = np.array(bitmap.to_numpy()[:, :, :3], dtype=np.uint8)
-        bitmap.close()
+def painted(page: "pypdfium2.PdfPage", side: int) -> NDArray[np.uint8]:
+    """Paint an open page, (height, width, 3), its longer side of so many pixels."""
+    bitmap = page.render(scale=side / max(page.get_size()), rev_byteorder=True)
+    pixels = np.array(bitmap.to_numpy()[:, :, :3], dtype=np.uint8)
+    bitmap.close()
     return pixels

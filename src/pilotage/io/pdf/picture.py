@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array, Homography, Polyline
 from pilotage.interpretation.sheet import Mark, Sheet, Text
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.pdf.document import PICTURE_SIDE, open_page, opened, page_names, page_picture
+from pilotage.io.pdf.document import PICTURE_SIDE, open_page, opened, page_names, painted
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.words import read_texts
 from pilotage.maps import Label, SchematicMap
@@ -56,7 +56,8 @@ def read_picture_page(
         with open_page(document, index, path) as shown:
             width, height = shown.get_size()
             texts = tuple(read_texts(shown, shown_from_content(shown)))
-    seen = trace(np.asarray(page_picture(path, page, side) / np.float32(255.0), dtype=np.float32))
+            pixels = painted(shown, side)
+    seen = trace(np.asarray(pixels / np.float32(255.0), dtype=np.float32))
     points = PointsFromPixels(max(width, height) / side, height)
     if isinstance(seen, SchematicMap):
         return plan_in_points(seen, points, texts)
