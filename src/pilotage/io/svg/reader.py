@@ -15,7 +15,8 @@ from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.style import local_name
-from pilotage.io.svg.tree import Drawn, Viewport, read_page, walk
+from pilotage.io.svg.tree import Drawn, walk
+from pilotage.io.svg.viewport import Viewport, read_page
 
 FLATNESS = 0.0005
 """How far a chord may stray from its curve, as a share of the drawing's diagonal: 2 cm in a 40 m building."""

@@ -1,6 +1,5 @@
 """Walk an SVG document as it is drawn: transforms, styles and roles handed down, `use` followed."""
 
-import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -11,59 +10,28 @@ from svgelements import Matrix, Viewbox
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
-
-USER_UNITS = {
-    "": 1.0,
-    "px": 1.0,
-    "in": 96.0,
-    "cm": 96.0 / 2.54,
-    "mm": 96.0 / 25.4,
-    "q": 96.0 / 101.6,
-    "pt": 96.0 / 72.0,
-    "pc": 16.0,
-    "em": 16.0,
-    "rem": 16.0,
-    "ex": 8.0,
-}
-"""User units in each unit of CSS; letters are taken to be of the usual size."""
-
-LENGTH = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-zA-Z%]*)")
+from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
 DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "foreignObject")
+HOLDING = ("svg", "g", "a", "switch")
 LIST_END = re.compile(r"[\s,]")
 OUTLINED = "aria-label"
 """Where Inkscape keeps the words of a text that was turned into outlines."""
 
-HOLDING = ("svg", "g", "a", "switch")
 MEASURES = {
     "x": 0, "y": 1, "width": 0, "height": 1, "cx": 0, "cy": 1, "r": 2, "rx": 0, "ry": 1,
     "x1": 0, "y1": 1, "x2": 0, "y2": 1,
 }  # fmt: skip
 """Attributes that are lengths, and of what their percentages are: width, height, diagonal of the viewport."""
 
+MAX_ELEMENTS = 100_000
+"""Elements of a drawing, repeated ones too: a few nested `use` could ask for millions."""
 
-@dataclass(frozen=True, slots=True)
-class Viewport:
-    """The rectangle that percentages refer to [user units]."""
+MAX_HANDED_DOWN = 20_000_000
+"""Elements times what they stand in: for 100,000 elements 200, of which programs write some dozens."""
 
-    x: float
-    y: float
-    width: float
-    height: float
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """Left, top, right and bottom."""
-        return self.x, self.y, self.x + self.width, self.y + self.height
-
-    def length(self, text: str, axis: int) -> float:
-        """Convert a length in any unit to user units."""
-        diagonal = math.hypot(self.width, self.height) / math.sqrt(2.0)  # SVG 1.1, section 7.10
-        units = {**USER_UNITS, "%": (self.width, self.height, diagonal)[axis] / 100.0}
-        match = LENGTH.fullmatch(text.strip())
-        if match is None or match[2].lower() not in units:
-            raise ValueError(f"a length must be a number and a unit, got {text!r}")
-        return float(match[1]) * units[match[2].lower()]
+MAX_LETTERS = 2_000_000
+"""Letters of all paths and lists of points together: some seconds of reading."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,37 +64,6 @@ class Place:
     names: tuple[str, ...] = ()
     groups: tuple[int, ...] = ()
     outlined: tuple[int, str] | None = None
-
-
-MAX_ELEMENTS = 100_000
-"""Elements of a drawing, repeated ones too: a few nested `use` could ask for millions."""
-
-MAX_HANDED_DOWN = 20_000_000
-"""Elements times what they stand in: for 100,000 elements 200, of which programs write some dozens."""
-
-MAX_LETTERS = 2_000_000
-"""Letters of all paths and lists of points together: some seconds of reading."""
-
-UNKNOWN_PAGE = Viewport(0.0, 0.0, 100.0, 100.0)
-"""What percentages refer to in a document that does not tell its size."""
-
-
-def read_page(root: Element) -> Viewport | None:
-    """Read the viewBox of the root, else its size; None if it tells neither."""
-    box = view_box(root)
-    sizes = root.get("width", "100%"), root.get("height", "100%")
-    if box is not None or any("%" in size or size == "auto" for size in sizes):
-        return box
-    width, height = (UNKNOWN_PAGE.length(size, axis) for axis, size in enumerate(sizes))
-    return Viewport(0.0, 0.0, width, height)
-
-
-def view_box(element: Element) -> Viewport | None:
-    """Read a viewBox; None if there is none, or none that spans an area."""
-    numbers = [float(number) for number in re.split(r"[\s,]+", element.get("viewBox", "").strip()) if number]
-    if len(numbers) != 4 or not (numbers[2] > 0.0 and numbers[3] > 0.0):
-        return None
-    return Viewport(*numbers)
 
 
 def walk(root: Element) -> Iterator[Drawn]:
