@@ -1,6 +1,5 @@
 """`pilotage record`: what is believed along a log or a drive, as standard messages of ROS 2."""
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.options import Force, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_pose
 from pilotage.cli.run import OdometryTopic, ScanTopic, open_localizer, read_stretch, run
 from pilotage.cli.terminal import busy, check_outputs, say
@@ -30,21 +30,19 @@ def record(
     ],
     *,
     output: Annotated[Path, typer.Option("-o", "--output", help="The MCAP file to write.")],
-    start: Annotated[
-        str | None, typer.Option(metavar="X,Y,HEADING_DEG", help="Where the robot starts, as for `localize`.")
-    ] = None,
+    start: StartPose = None,
     scale: Annotated[
         float | None, typer.Option(help="Drawing units per metre, for the frame `map` as well.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    seed: Seed = 0,
     layer: Layers = None,
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    settings: SettingsFile = None,
     scan_topic: ScanTopic = None,
     odometry_topic: OdometryTopic = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    force: Force = False,
 ) -> None:
     """Write what is believed along a log or a drive as an MCAP file of standard messages.
 
@@ -58,8 +56,7 @@ def record(
     check_outputs([output], force=force)
     if output.suffix != ".mcap":
         raise FileError("the name of the output must end in .mcap", output)
-    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
-        raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
+    check_positive(scale, "--scale")
     from pilotage.io.bags.belief import Belief, MapFrame
     from pilotage.io.records import is_records, read_records
 
