@@ -7,7 +7,20 @@ import pytest
 
 from pilotage import worlds
 
-COMMANDS = ("cells", "demo", "localize", "navigate", "perceive", "settings", "simplify")
+COMMANDS = (
+    "cells",
+    "check",
+    "demo",
+    "localize",
+    "navigate",
+    "perceive",
+    "record",
+    "ros2",
+    "settings",
+    "simplify",
+    "table",
+    "which",
+)
 
 
 @pytest.mark.parametrize("command", COMMANDS)

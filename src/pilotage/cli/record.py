@@ -25,7 +25,8 @@ def record(
     log: Annotated[
         Path,
         typer.Argument(
-            metavar="LOG", help="A laser log, as for `localize`, or the journal of a drive (JSON Lines)."
+            metavar="LOG",
+            help="A laser log, as for `localize`, or the journal of a drive or estimates (JSON Lines).",
         ),
     ],
     *,
@@ -51,7 +52,11 @@ def record(
     The frame *map* is the drawing at one scale: `--scale`, or what the file says, or
     the scale at the end of the log.
 
-    **Example:** `pilotage record office.svg run.mcap -o beliefs.mcap`
+    **Examples:**
+
+    - Localize along a log: `pilotage record office.svg run.mcap -o beliefs.mcap`
+    - A drive of `navigate`: `pilotage record office.svg run/journal.jsonl -o drive.mcap`
+    - What `localize` wrote: `pilotage record office.svg estimates.jsonl -o beliefs.mcap --scale 20`
     """
     check_outputs([output], force=force)
     if output.suffix != ".mcap":

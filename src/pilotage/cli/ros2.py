@@ -76,11 +76,14 @@ def ros2(
 
     **Examples:**
 
-    - `pilotage ros2 office.svg --localize-only`
+    - Stand in for AMCL: `pilotage ros2 office.svg --localize-only`
+    - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
+    - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
     limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
     check(limits, drive=drive, localize_only=localize_only, goal=goal)
+    check_positive(scale, "--scale")
     from pilotage.ros.node import Node
     from pilotage.ros.robot import LiveRobot, Topics
 
@@ -88,12 +91,12 @@ def ros2(
     known = None if start is None else parse_pose(start, "--start")
     session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale)
     topics = Topics(scan_topic, odometry_topic, command_topic, stamped, drive, localize_only)
-    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
     if goal is not None:
         numbers = finite_numbers(goal)
         refusal = session.set_goal((numbers[0], numbers[1]) if len(numbers) == 2 else goal)
         if refusal:
             raise typer.BadParameter(refusal, param_hint="--goal")
+    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
     with standing_at_the_end(robot):
         spin(robot, ends=goal is not None)

@@ -48,7 +48,8 @@ def read_stretch(
         say(content.complaint)
     readings = content.readings[first:last]
     if not readings:
-        raise FileError(f"the log holds {len(content)} scans, none of them from {first} to {last}", log)
+        until = "on" if last is None else f"to {last - 1}"
+        raise FileError(f"the log holds {len(content)} scans, none of them from {first} {until}", log)
     return readings
 
 

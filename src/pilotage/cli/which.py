@@ -41,11 +41,14 @@ def which(
 ) -> None:
     """Rank drawings by how well they explain a log.
 
-    Each log is localized on each drawing. A line a drawing, the best first: the logarithm of
-    its evidence over that of any building, the place where the robot would be at the end,
-    the probability of that, and the file.
+    Each log is localized on each drawing. A line a drawing, the best first: the log, the rank, the logarithm
+    of the drawing's evidence over that of any building, the probability of the place where the robot would be
+    at the end, that place, and the drawing.
 
-    **Example:** `pilotage which floors/*.svg run.mcap`
+    **Examples:**
+
+    - `pilotage which floor1.svg floor2.pdf run.log.gz`
+    - `pilotage which floors/*.svg monday.mcap tuesday.mcap --travel 80 --jobs 8`
     """
     from pilotage.io.logs import is_log
 
