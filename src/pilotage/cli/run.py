@@ -48,7 +48,7 @@ def read_stretch(
         say(content.complaint)
     readings = content.readings[first:last]
     if not readings:
-        until = "on" if last is None else f"to {last - 1}"
+        until = "on" if last is None else f"to {last}"
         raise FileError(f"the log holds {len(content)} scans, none of them from {first} {until}", log)
     return readings
 
