@@ -90,7 +90,14 @@ def ros2(
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
     session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale)
-    topics = Topics(scan_topic, odometry_topic, command_topic, stamped, drive, localize_only)
+    topics = Topics(
+        scan_topic,
+        odometry_topic,
+        command_topic,
+        stamped=stamped,
+        drives=drive,
+        localizes_only=localize_only,
+    )
     if goal is not None:
         numbers = finite_numbers(goal)
         refusal = session.set_goal((numbers[0], numbers[1]) if len(numbers) == 2 else goal)
