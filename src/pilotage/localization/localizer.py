@@ -126,11 +126,13 @@ class Localizer:
         motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
         if first or self.settings.is_keyframe_due(motion):
             self._add_keyframe(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
+            self._estimate = self._keyframe_estimate
             motion = Pose2.identity()
+        else:
+            assert self._keyframe_estimate is not None
+            self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
         self._motion = motion
-        assert self._keyframe_estimate is not None
-        self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
-        return self._estimate
+        return self.estimate
 
     def _add_keyframe(self, scan: SparseScan, corners: Corners, motion: Pose2, stamp: float) -> None:
         """Propagate and reweight all tracks, let new ones be born, and sum up."""
