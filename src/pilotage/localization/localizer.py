@@ -154,7 +154,6 @@ class Localizer:
         share = 0.0 if is_first else self._search_effort()
         if share > 0.0:
             particles = join([particles, self._births(share)])
-            particles, log_null, _ = normalized(particles, log_null)
         self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
         self._keyframe_estimate = summarize(
             self.tracks, self._fit(scan), stamp, self._window[-1].travel, self.atlas
