@@ -14,7 +14,7 @@ from pilotage.maps import Atlas, FileAxes
 
 RADIUS = 2.0
 """[m] Particles within this distance of the densest point are one hypothesis."""
-BLOCK = 1.0
+DENSITY_BLOCK = 1.0
 """[m] The densest point is sought over three by three blocks of this size."""
 MAX_HYPOTHESES = 5
 """Number of hypotheses that are told, at most."""
@@ -201,7 +201,7 @@ def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array,
     """Find the middle of the three by three blocks with the largest weight, and the scale there."""
     scale = math.exp(float(weighted_sum(particles.states[LOG_SCALE], weights)) / float(weights.sum()))
     table = atlas.range_table
-    size = BLOCK * scale
+    size = DENSITY_BLOCK * scale
     low = np.array(table.corner) - size
     high = np.array([table.columns, table.rows]) * table.cell_size + 2.0 * size
     cells = np.floor(np.clip((particles.states[:2].T - low), 0.0, high) / size).astype(np.int64) + 1
