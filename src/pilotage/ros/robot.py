@@ -4,6 +4,7 @@ All that is published bears the stamp of the scan that it was made of, so that s
 """
 
 import json
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -229,4 +230,4 @@ def planar(pose: Any) -> Pose2:  # noqa: ANN401  # made at run time
     """Return a geometry_msgs/Pose as a pose of the plane."""
     turn = pose.orientation
     theta = heading(turn.x, turn.y, turn.z, turn.w)
-    return Pose2(pose.position.x, pose.position.y, theta if theta == theta else 0.0)  # noqa: PLR0124  # nan
+    return Pose2(pose.position.x, pose.position.y, 0.0 if math.isnan(theta) else theta)
