@@ -46,6 +46,13 @@ class MapFrame:
         return in_file.x, in_file.y, in_file.theta
 
 
+def known_scale(sketch: SchematicMap, given: float | None) -> float | None:
+    """Return the scale of the frame `map` [drawing units per metre] if it is given, or the file tells it."""
+    if given is not None:
+        return given
+    return 1.0 / sketch.metres_per_unit if sketch.metres_per_unit else None
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """One place where the robot may be."""
