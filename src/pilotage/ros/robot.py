@@ -22,8 +22,8 @@ from pilotage.ros.sensing import NotReadyError, Sensing
 from pilotage.ros.session import STILL, Goal, Session, Told
 from pilotage.ros.watchdog import NO_SCAN, Watchdog
 
-TF_TYPE = "tf2_msgs/msg/TFMessage"
-POSE_TYPE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+TF_TYPE, POSE_TYPE, PATH_TYPE = TYPES["/tf"], TYPES["/pilotage/pose"], TYPES["/pilotage/path"]
+STRING_TYPE = "std_msgs/msg/String"
 STANDING_EVERY = 0.1
 """[s] between two commands to stand while something is wrong."""
 ROUTE_EVERY = 0.5
@@ -69,7 +69,6 @@ class LiveRobot:
         self._wire, self.session, self._topics, self._say, self._clock = wire, session, topics, say, clock
         self.sensing, self.watchdog = Sensing(), Watchdog()
         self.told: Told | None = None
-        self.command = STILL  # the last one, sent or not
         self.is_over = False  # a drive has ended
         latched = Quality(LATCHED_DEPTH, reliable=True, latched=True)
         self._scans = wire.subscribe(topics.scan, SCAN_TYPE, Quality(1))
@@ -80,7 +79,7 @@ class LiveRobot:
         self._goal_poses = wire.subscribe(
             "goal_pose", "geometry_msgs/msg/PoseStamped", Quality(1, reliable=True)
         )
-        self._goal_names = wire.subscribe("pilotage/goal", "std_msgs/msg/String", Quality(1, reliable=True))
+        self._goal_names = wire.subscribe("pilotage/goal", STRING_TYPE, Quality(1, reliable=True))
         self._out = self._advertise()
         self._frame_told: object = None
         self._stood = self._route_told = -np.inf
@@ -94,8 +93,8 @@ class LiveRobot:
             "amcl_pose": wire.advertise("amcl_pose", POSE_TYPE, latched=True),
             "diagnostics": wire.advertise("/diagnostics", TYPES["/diagnostics"]),
             "hypotheses": wire.advertise("pilotage/hypotheses", TYPES["/pilotage/hypotheses"]),
-            "status": wire.advertise("pilotage/status", "std_msgs/msg/String"),
-            "route": wire.advertise("pilotage/route", "nav_msgs/msg/Path"),
+            "status": wire.advertise("pilotage/status", STRING_TYPE),
+            "route": wire.advertise("pilotage/route", PATH_TYPE),
             "map": wire.advertise("map", TYPES["/map"], latched=True),
             "drawing": wire.advertise("pilotage/drawing", TYPES["/pilotage/drawing"], latched=True),
             "cells": wire.advertise("pilotage/cells", TYPES["/pilotage/cells"], latched=True),
@@ -168,7 +167,6 @@ class LiveRobot:
 
     def _send_command(self, command: Twist, stamp: float) -> None:
         """Send a command, if we may drive."""
-        self.command = command
         if "command" not in self._out:
             return
         message = outgoing.twist_message(command)
