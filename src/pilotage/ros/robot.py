@@ -5,6 +5,7 @@ All that is published bears the stamp of the scan that it was made of, so that s
 
 import json
 import math
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ from pilotage.ros.watchdog import NO_SCAN, Watchdog
 
 TF_TYPE, POSE_TYPE, PATH_TYPE = TYPES["/tf"], TYPES["/pilotage/pose"], TYPES["/pilotage/path"]
 STRING_TYPE = "std_msgs/msg/String"
+NUMBER = re.compile(r"[+-]?\d+(\.\d+)?")
+"""What may differ between two tellings of one reason to stand."""
 STANDING_EVERY = 0.1
 """[s] between two commands to stand while something is wrong."""
 ROUTE_EVERY = 0.5
@@ -156,7 +159,7 @@ class LiveRobot:
 
     def _stand(self, reason: str, stamp: float) -> None:
         """Send a command to stand, again and again."""
-        kind = reason.rstrip("0123456789. s")
+        kind = NUMBER.sub("", reason)
         if kind != self._reason:
             self._say(f"standing: {reason}")
             self._reason = kind
