@@ -5,47 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from flats import BLACK, LABELS, OUTSIDE, RED, ROOMS, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.geometry import Polyline
-from pilotage.interpretation import Hints, Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
-from pilotage.maps import DecompositionSettings, decompose
-
-BLACK, RED, WHITE = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1.0)
-ROOMS = {"bath": (25.0, 40.0), "hall": (75.0, 40.0)}
-
-
-def stroke(*points, color=BLACK, dashed=False, names=()):
-    """A line through points."""
-    return Mark((Polyline(np.array(points, dtype=float)),), Pen(color, 1.0, dashed), names=names)
-
-
-def box(left, bottom, right, top, *, pen=None, fill=None, names=()):
-    """A rectangle."""
-    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)], dtype=float)
-    return Mark((Polyline(corners, closed=True),), pen, fill, names=names)
-
-
-OUTSIDE = box(0, 0, 100, 80, pen=Pen(BLACK, 1.0))
-WITH_GAP = (OUTSIDE, stroke((50, 0), (50, 30)), stroke((50, 42), (50, 80)))
-LABELS = tuple(Text(name, at, height=3.0) for name, at in ROOMS.items())
-
-
-def arc(center, radius, start, end):
-    """A part of a circle in chords; angles in degrees."""
-    angles = np.radians(np.linspace(start, end, 9))
-    return stroke(*(np.array(center) + radius * np.column_stack([np.cos(angles), np.sin(angles)])))
-
-
-def graph_of(marks, texts=LABELS):
-    """Divide what is understood of marks into cells."""
-    return decompose(interpret(Sheet(tuple(marks), texts)).sketch, DecompositionSettings())
-
-
-def are_joined(marks):
-    """Tell whether the two rooms are told apart and one leads to the other."""
-    graph = graph_of(marks)
-    ids = {cell.label: cell.cell_id for cell in graph.cells}
-    assert set(ROOMS) == set(ids)
-    return ids["hall"] in {neighbor.cell_id for neighbor in graph.neighbors(ids["bath"])}
+from pilotage.interpretation import Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
 
 
 def test_plain_strokes_stay_as_they_were_drawn():
@@ -103,7 +65,7 @@ def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
 def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
     sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))
 
-    guessed, told = interpret(sheet), interpret(sheet, Hints(layers={layer: Role.WALL}))
+    guessed, told = interpret(sheet), interpret(sheet, {layer: Role.WALL})
 
     assert (Role.FURNITURE, f"its name is {layer!r}") == (
         guessed.meanings[-1].role,

@@ -5,7 +5,7 @@ and no opinion. `interpret` turns a sheet into a `SchematicMap`, and says for ea
 and why.
 """
 
-from pilotage.interpretation.interpret import Hints, Interpretation, NoWallsError, interpret
+from pilotage.interpretation.interpret import Interpretation, NoWallsError, interpret
 from pilotage.interpretation.meanings import Meaning
 from pilotage.interpretation.names import role_named, words_of
 from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Pen, Role, Sheet, Text
@@ -15,7 +15,6 @@ __all__ = [
     "WHITE",
     "Bounds",
     "Color",
-    "Hints",
     "Interpretation",
     "Mark",
     "Meaning",

@@ -19,9 +19,8 @@ SWEEP = np.radians([10.0, 130.0])
 ROUNDNESS = 0.04
 """No vertex of an arc lies farther off its circle than this share of the radius."""
 
-BOW = 1.6
-"""The chords of an arc differ in length by no more than this factor, its first and last left out."""
-
+BOW = 2.56
+"""Neighboring chords of an arc differ in length by no more than this factor."""
 
 AJAR = np.radians(50.0)
 """An arc that sweeps less must be even: a wall drawn by hand is never straight, and is no such arc."""
@@ -49,35 +48,32 @@ def find_arcs(line: Polyline) -> Iterator[Arc]:
     points = line.ring
     if len(points) < LEAST_CHORDS + 1:
         return
+    points = points[np.append(True, np.hypot(*np.diff(points, axis=0).T) > 0.0)]
     steps = np.diff(points, axis=0)
     lengths = np.hypot(*steps.T)
-    if (lengths == 0.0).any():
-        points = points[np.append(True, lengths > 0.0)]
-        steps = np.diff(points, axis=0)
-        lengths = np.hypot(*steps.T)
     if len(steps) < LEAST_CHORDS:
         return
+    for first, last in bows(steps, lengths):
+        chords = lengths[first : last + 1]
+        arc = fitted(points[first : last + 2])
+        is_long = chords.sum() >= SHARE * lengths.sum()
+        if arc is not None and is_long and (arc.sweep >= AJAR or chords.max() <= EVEN * chords.min()):
+            yield arc
+
+
+def bows(steps: Array, lengths: Array) -> Iterator[tuple[int, int]]:
+    """Find runs of chords (n, 2) that turn gently to one side: the first and last chord of each."""
     directions = np.arctan2(steps[:, 1], steps[:, 0])
     turns = (np.diff(directions) + np.pi) % (2.0 * np.pi) - np.pi
     ratio = np.maximum(lengths[1:], lengths[:-1]) / np.minimum(lengths[1:], lengths[:-1])
-    joined = (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4) & (ratio < BOW * BOW)
+    is_gentle = (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4) & (ratio < BOW)
     first = 0
     for k in range(len(turns) + 1):
-        breaks = (
-            k == len(turns) or not joined[k] or (k > first and np.sign(turns[k]) != np.sign(turns[first]))
-        )
-        if breaks:
+        is_end = k == len(turns) or not is_gentle[k]
+        if is_end or (k > first and np.sign(turns[k]) != np.sign(turns[first])):
             if k - first + 1 >= LEAST_CHORDS:
-                arc = fitted(points[first : k + 2])
-                drawn = lengths[first : k + 1]
-                is_even = drawn.max() <= EVEN * drawn.min()
-                if (
-                    arc is not None
-                    and drawn.sum() >= SHARE * lengths.sum()
-                    and (arc.sweep >= AJAR or is_even)
-                ):
-                    yield arc
-            first = k + 1 if k == len(turns) or not joined[k] else k
+                yield first, k
+            first = k + 1 if is_end else k
 
 
 def fitted(points: Array) -> Arc | None:

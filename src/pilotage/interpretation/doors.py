@@ -72,7 +72,6 @@ class Segments:
     """All straight lines that are seen, also those around areas."""
 
     ends: Array  # (n, 2, 2)
-    owners: NDArray[np.int64]  # (n,) places of their marks
 
     @cached_property
     def tree(self) -> shapely.STRtree:
@@ -87,16 +86,14 @@ class Segments:
 
 def segments_of(seen: Sequence[Seen]) -> Segments:
     """Take all lines and borders of areas apart."""
-    ends, owners = [np.empty((0, 2, 2))], [np.empty(0, dtype=np.int64)]
-    for place, mark in enumerate(seen):
-        for part in parts_of(
-            shapely.union(mark.line, shapely.boundary(mark.area)) if not mark.area.is_empty else mark.line
-        ):
+    ends = [np.empty((0, 2, 2))]
+    for mark in seen:
+        border = mark.line if mark.area.is_empty else shapely.union(mark.line, shapely.boundary(mark.area))
+        for part in parts_of(border):
             points = shapely.get_coordinates(part)
             if len(points) > 1:
                 ends.append(np.stack([points[:-1], points[1:]], axis=1))
-                owners.append(np.full(len(points) - 1, place))
-    return Segments(np.concatenate(ends), np.concatenate(owners))
+    return Segments(np.concatenate(ends))
 
 
 def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door]:
@@ -110,7 +107,7 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     if not arcs:
         return []
     segments = segments_of(seen)
-    judged = [(arc, marks, *judge(arc, marks, segments)) for arc, marks in without_twins(arcs)]
+    judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
     leaved = [arc.radius for arc, _, leaves, _ in judged if leaves.any()]
     usual = float(np.median(leaved or [arc.radius for arc, *_ in judged]))
     doors = []
@@ -143,7 +140,7 @@ def without_twins(arcs: Sequence[tuple[Arc, int]]) -> list[tuple[Arc, tuple[int,
     return [(arc, tuple(sorted(set(marks)))) for arc, marks in kept]
 
 
-def judge(arc: Arc, marks: tuple[int, ...], segments: Segments) -> tuple[NDArray[np.bool_], Array]:
+def judge(arc: Arc, segments: Segments) -> tuple[NDArray[np.bool_], Array]:
     """Tell for both ends of an arc whether a leaf lies there, and at how many sides of it there is a wall."""
     leaves, walls = np.zeros(2, dtype=bool), np.zeros(2)
     for k, end in enumerate(arc.ends):
@@ -153,7 +150,7 @@ def judge(arc: Arc, marks: tuple[int, ...], segments: Segments) -> tuple[NDArray
             near = segments.tree.query(
                 shapely.Point(point), predicate="dwithin", distance=SLACK * 1.5 * arc.radius
             )
-            walls[k] += bool(np.isin(segments.owners[near], marks, invert=True).any() or len(near) > 0)
+            walls[k] += len(near) > 0
     return leaves, walls
 
 

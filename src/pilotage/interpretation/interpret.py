@@ -1,14 +1,15 @@
 """From a sheet to a drawing of a building: give each mark a role, and build walls and openings from them."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.glyphs import find_glyphs
-from pilotage.interpretation.meanings import Findings, Meaning, find_meanings
+from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
@@ -22,19 +23,13 @@ GRAIN = 0.0005
 
 
 NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
-"""What a name makes one of these is no wall."""
+"""What a name makes one of these is no wall; windows and stairs close rooms as walls do."""
+
+NOT_NAMED = (Role.WALL, "")
 
 
 class NoWallsError(ValueError):
     """A sheet shows nothing that could be a wall."""
-
-
-@dataclass(frozen=True, slots=True)
-class Hints:
-    """What a person says about a drawing where guessing fails."""
-
-    layers: Mapping[str, Role] = field(default_factory=dict)  # a layer, class, id or block name -> its role
-    labels: tuple[Label, ...] = ()  # names of rooms, y up [drawing units]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,16 +40,15 @@ class Interpretation:
     sheet: Sheet
     meanings: tuple[Meaning, ...]  # one for each mark of the sheet
     text_meanings: tuple[Meaning, ...] = ()  # one for each text of the sheet
-    assumptions: tuple[str, ...] = ()  # what was assumed of the whole, in words a user understands
 
 
-def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
+def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -> Interpretation:
     """Tell walls from all else.
 
-    Raises NoWallsError if nothing on the sheet can be a wall.
+    `layers` tells the roles of layers, classes, ids and blocks where guessing fails. Raises NoWallsError if
+    nothing on the sheet can be a wall.
     """
-    hints = hints or Hints()
-    told = [told_role(mark.names, hints.layers) for mark in sheet.marks]
+    told = [told_role(mark.names, layers) for mark in sheet.marks]
     open_to_guess = [number for number, role in enumerate(told) if role is None]
     paper = find_paper(sheet, open_to_guess)
     drawn = [number for number in open_to_guess if number not in paper.sheets]
@@ -65,10 +59,10 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     guessed = {
         mark.number: role for mark in visible if (role := guessed_role(sheet.marks[mark.number].names))
     }
-    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] in NO_WALLS}
+    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     doors = find_doors(sheet, visible, diagonal)
     left = without_doors(visible, doors)
-    seen = [mark for mark in left if mark.number not in named]
+    seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     walls = find_walls(
         seen,
         sheet,
@@ -80,7 +74,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    text_roles = [told_role(text.names, hints.layers) or (Role.LABEL, "words") for text in sheet.texts]
+    text_roles = [told_role(text.names, layers) or (Role.LABEL, "words") for text in sheet.texts]
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
     names = find_names([(number, sheet.texts[number]) for number in spoken])
     labels = tuple(Label(name.words, name.position) for name in names)
@@ -89,7 +83,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
         strokes,
         start=start,
         goal=goal,
-        labels=labels + hints.labels,
+        labels=labels,
         solids=tuple(polyline for ring in rings_of(walls.solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
@@ -98,7 +92,7 @@ def interpret(sheet: Sheet, hints: Hints | None = None) -> Interpretation:
     )
     meanings = find_meanings(
         sheet,
-        Findings(
+        Evidence(
             {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
             set(paper.sheets),
             letters,

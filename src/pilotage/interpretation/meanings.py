@@ -26,13 +26,13 @@ class Meaning:
 
 
 @dataclass(frozen=True, eq=False)
-class Findings:
-    """What the steps of the interpretation found, by number of the mark in its sheet."""
+class Evidence:
+    """What the steps of the interpretation found; marks by their number in the sheet."""
 
     told: Mapping[int, Meaning]  # by a person, or by the words of this program
     papers: AbstractSet[int]  # sheets of paper
     letters: AbstractSet[int]  # letters that were turned into outlines
-    named: Mapping[int, Meaning]  # by what people call their layers, and no wall
+    named: Mapping[int, Meaning]  # by what people call their layers, all but walls
     visible: Sequence[Seen]  # before doors were taken out
     left: Sequence[Seen]  # after
     doors: Sequence[Door]
@@ -41,7 +41,7 @@ class Findings:
     diagonal: float  # [drawing units]
 
 
-def find_meanings(sheet: Sheet, found: Findings) -> tuple[Meaning, ...]:
+def find_meanings(sheet: Sheet, found: Evidence) -> tuple[Meaning, ...]:
     """Give each mark of a sheet its meaning."""
     meanings = {
         **dict.fromkeys(range(len(sheet.marks)), Meaning(Role.IGNORE, "painted over")),
@@ -54,7 +54,7 @@ def find_meanings(sheet: Sheet, found: Findings) -> tuple[Meaning, ...]:
     return tuple(meanings[number] for number in range(len(sheet.marks)))
 
 
-def meanings_of_visible(sheet: Sheet, found: Findings) -> Iterator[tuple[int, Meaning]]:
+def meanings_of_visible(sheet: Sheet, found: Evidence) -> Iterator[tuple[int, Meaning]]:
     """Tell what the marks are that can be seen."""
     arcs = {found.visible[place].number for door in found.doors for place in door.marks}
     left = {mark.number for mark in found.left if not (mark.line.is_empty and mark.area.is_empty)}

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -11,7 +12,6 @@ from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import find_partitions
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
-    HAIR,
     are_walls,
     dark_areas,
     enclosed,
@@ -22,6 +22,7 @@ from pilotage.interpretation.solids import (
     painted_thickness,
     without_crumbs,
 )
+from pilotage.interpretation.windows import windows, without_slivers
 
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
@@ -31,9 +32,6 @@ USUAL_GAP, WIDE_GAP = 0.04, 0.08
 
 USUAL_DOOR = 0.03
 """Width of a door where none is drawn, as a share of the drawing's diagonal."""
-
-SLIVER = 0.21
-"""Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
 NEARLY_ALL = 0.9
 """Black lines alone are the walls if they enclose this share of what all lines enclose."""
@@ -51,6 +49,10 @@ PALE = 0.4
 """A fill that differs less than this from the ground in lightness is a floor if it has no line around it."""
 
 
+SLIVER = 0.21
+"""Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
+
+
 @dataclass(frozen=True, eq=False)
 class Walls:
     """The walls of a plan."""
@@ -58,7 +60,37 @@ class Walls:
     solid: shapely.Geometry  # walls that have a thickness
     lines: shapely.Geometry | None  # thin walls beside them; None: every line that is left is a wall
     colors: frozenset[Color]  # in which walls are painted
-    thickness: float | None  # of the thickest [drawing units]; None: unknown
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What is left of a drawing once doors are taken out; lengths in drawing units."""
+
+    solid: shapely.Geometry  # areas in the colors of walls
+    colors: frozenset[Color]
+    main: shapely.Geometry  # lines in black or gray
+    marginal: shapely.Geometry  # lines in a color, and dashed ones
+    doors: Sequence[Door]
+    diagonal: float
+
+    @cached_property
+    def lines(self) -> shapely.Geometry:
+        """All lines."""
+        return shapely.union_all([self.main, self.marginal])
+
+    @cached_property
+    def openings(self) -> shapely.Geometry:
+        """What doors cut out of walls."""
+        return shapely.union_all([door.opening for door in self.doors])
+
+    @cached_property
+    def door_width(self) -> float | None:
+        """Median over the doors; None if none is drawn."""
+        return float(np.median([door.width for door in self.doors])) if self.doors else None
+
+    def gap(self, usual: float) -> float:
+        """Width of the openings to close: by the doors, else a usual share of the diagonal."""
+        return usual * self.diagonal if self.door_width is None else GAP * self.door_width
 
 
 def find_walls(
@@ -70,7 +102,10 @@ def find_walls(
     ground: Color,
     diagonal: float,
 ) -> Walls:
-    """Find walls among what is seen once doors are taken out."""
+    """Find walls among what is seen once doors are taken out.
+
+    Walls are painted, or have two faces, or are black lines: the first of these that encloses the rooms.
+    """
     fills = [
         (mark, color)
         for mark in seen
@@ -80,38 +115,56 @@ def find_walls(
     solid = shapely.union_all(
         [mark.area for mark, color in fills if color in colors or named.get(mark.number) is Role.WALL]
     )
-    lines = shapely.union_all([mark.line for mark in seen if not mark.line.is_empty])
-    width = float(np.median([door.width for door in doors])) if doors else None
-    gap = USUAL_GAP * diagonal if width is None else GAP * width
-    openings = shapely.union_all([door.opening for door in doors])
-    if not solid.is_empty:
-        thickness = painted_thickness(solid)
-        walls = shapely.difference(filled_between(lines, solid, thickness), openings)
-        body = without_slivers(solid, SLIVER * thickness)
-        walls = shapely.union(walls, shapely.difference(solid, openings))
-        glazed = windows(walls, body, thickness, GAP * (width or USUAL_DOOR * diagonal))
-        walls = shapely.union(glazed, shapely.difference(body, openings))
-        if are_walls(walls, lines, gap):
-            return Walls(
-                walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), thickness
-            )
-    if width is None:
-        gap = WIDE_GAP * diagonal
-    faced = greatest_thickness(lines, width, diagonal)
-    if faced is not None:
-        walls = shapely.difference(filled_between(lines, solid, faced), openings)
-        walls = without_crumbs(walls, faced)
-        if are_walls(walls, lines, gap):
-            return Walls(walls, find_partitions(lines, walls, doors, width or gap), frozenset(colors), faced)
-    main, marginal = by_style(seen, sheet)
-    everything = 0.0 if main.is_empty or marginal.is_empty else enclosed(lines, gap)
-    if everything > 0.0 and enclosed(main, gap) >= NEARLY_ALL * everything:
-        body = shapely.union_all(shapely.buffer(parts_of(main), EDGE * diagonal))  # all at once is far slower
-        others = shapely.difference(marginal, body)
-        parting = find_partitions(others, body, doors, width or USUAL_DOOR * diagonal)
-        long = [part for part in parts_of(others) if extent(part) >= LONG * diagonal]
-        return Walls(solid, shapely.union_all([main, parting, *long]), frozenset(colors), None)
-    return Walls(solid, None, frozenset(colors), None)
+    drawn = Drawn(solid, frozenset(colors), *by_style(seen, sheet), doors, diagonal)
+    ways = (walls for way in (painted_walls, faced_walls, black_lines) if (walls := way(drawn)) is not None)
+    return next(ways, Walls(solid, None, drawn.colors))
+
+
+def painted_walls(drawn: Drawn) -> Walls | None:
+    """Take dark areas for walls, and add windows; None if they do not enclose the rooms."""
+    if drawn.solid.is_empty:
+        return None
+    gap = drawn.gap(USUAL_GAP)
+    thickness = painted_thickness(drawn.solid)
+    body = without_slivers(drawn.solid, SLIVER * thickness)
+    filled = shapely.union(filled_between(drawn.lines, drawn.solid, thickness), drawn.solid)
+    widest = GAP * (drawn.door_width or USUAL_DOOR * drawn.diagonal)
+    glazed = windows(shapely.difference(filled, drawn.openings), body, thickness, widest)
+    walls = shapely.union(glazed, shapely.difference(body, drawn.openings))
+    if not are_walls(walls, drawn.lines, gap):
+        return None
+    thin = find_partitions(drawn.lines, walls, drawn.doors, drawn.door_width or gap)
+    return Walls(walls, thin, drawn.colors)
+
+
+def faced_walls(drawn: Drawn) -> Walls | None:
+    """Fill what lies between two faces of a wall; None if that does not enclose the rooms."""
+    gap = drawn.gap(WIDE_GAP)
+    thickness = greatest_thickness(drawn.lines, drawn.door_width, drawn.diagonal)
+    if thickness is None:
+        return None
+    filled = filled_between(drawn.lines, drawn.solid, thickness)
+    walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
+    if not are_walls(walls, drawn.lines, gap):
+        return None
+    thin = find_partitions(drawn.lines, walls, drawn.doors, drawn.door_width or gap)
+    return Walls(walls, thin, drawn.colors)
+
+
+def black_lines(drawn: Drawn) -> Walls | None:
+    """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed."""
+    if drawn.main.is_empty or drawn.marginal.is_empty:
+        return None
+    gap = drawn.gap(WIDE_GAP)
+    everything = enclosed(drawn.lines, gap)
+    if everything == 0.0 or enclosed(drawn.main, gap) < NEARLY_ALL * everything:
+        return None
+    edge = EDGE * drawn.diagonal
+    body = shapely.union_all(shapely.buffer(parts_of(drawn.main), edge))  # all at once is far slower
+    others = shapely.difference(drawn.marginal, body)
+    parting = find_partitions(others, body, drawn.doors, drawn.door_width or USUAL_DOOR * drawn.diagonal)
+    long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
+    return Walls(drawn.solid, shapely.union_all([drawn.main, parting, *long]), drawn.colors)
 
 
 def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
@@ -124,43 +177,6 @@ def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shap
             is_marginal = pen.dashed or max(pen.color) - min(pen.color) >= COLORFUL
             (marginal if is_marginal else main).append(mark.line)
     return shapely.union_all(main), shapely.union_all(marginal)
-
-
-def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
-    """Leave out what is thinner than a width: leaves of doors that are painted like walls."""
-    inner = shapely.buffer(solid, -width / 2.0, join_style="mitre")
-    return shapely.intersection(shapely.buffer(inner, 0.51 * width, join_style="mitre"), solid)
-
-
-def windows(
-    filled: shapely.Geometry, solid: shapely.Geometry, thickness: float, widest: float
-) -> shapely.Geometry:
-    """Keep what leads from wall to wall, is as thin, and has a room on one side only.
-
-    What has rooms on both sides is a door that is drawn shut, if it is not wider than any, and what stands at
-    a wall is furniture.
-    """
-    hair = HAIR * thickness
-    reach, grown = (shapely.buffer(solid, share * hair, join_style="mitre") for share in (1.0, 2.0))
-    bridges = []
-    for part in parts_of(shapely.difference(filled, reach)):
-        if part.geom_type == "Polygon" and part.area <= thickness * part.length / 2.0:
-            contact = shapely.line_merge(shapely.intersection(shapely.boundary(part), grown))
-            if shapely.get_num_geometries(contact) > 1:
-                bridges.append(shapely.buffer(part, 2.0 * hair, join_style="mitre"))
-    rooms = [
-        shapely.Polygon(ring)
-        for part in parts_of(shapely.union_all([solid, *bridges]))
-        if part.geom_type == "Polygon"
-        for ring in part.interiors
-    ]
-    if not (rooms and bridges):
-        return NOTHING
-    owners, _ = shapely.STRtree(rooms).query(bridges, predicate="dwithin", distance=hair)
-    beside = np.bincount(owners, minlength=len(bridges))
-    return shapely.union_all(
-        [part for part, count in zip(bridges, beside, strict=True) if count < 2 or extent(part) > widest]
-    )
 
 
 def is_floor(color: Color, ground: Color) -> bool:

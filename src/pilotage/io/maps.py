@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pilotage.errors import FileError
-from pilotage.interpretation import Hints, Interpretation, NoWallsError, Role, Sheet, interpret
+from pilotage.interpretation import Interpretation, NoWallsError, Role, Sheet, interpret
 from pilotage.io.hints import DrawingHints, Shading, read_hints, role_of, shading_of, table_beside
 from pilotage.io.kinds import Kind, recognize
 from pilotage.io.raster import Picture, PictureKind, read_map_server, read_sheet_or_plan, sheet_or_plan
@@ -66,7 +66,7 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
         remarks.append(f"hints are taken from {table.name}")
     sketch, interpretation = read_drawing(file, hints)
     if interpretation is not None:
-        remarks += [*interpretation.assumptions, *unknown_layers(interpretation, hints.layers)]
+        remarks += unknown_layers(interpretation, hints.layers)
     elif hints.layers:
         remarks.append("a picture has no layers")
     labels = tuple(
@@ -110,7 +110,7 @@ def read_pdf_page(
 def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation]:
     """Give the marks of a sheet a meaning."""
     try:
-        interpretation = interpret(sheet, Hints(hints.layers))
+        interpretation = interpret(sheet, hints.layers)
     except NoWallsError as error:
         raise FileError(str(error), file) from error
     pieces = len(interpretation.sketch.segments)

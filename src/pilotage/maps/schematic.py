@@ -27,15 +27,9 @@ class SchematicMap:
     labels: tuple[Label, ...] = ()
     source: str = ""
     y_down: bool = False  # whether the y axis of the source file points down, as in SVG and in pictures
-    contours: bool = (
-        False  # whether the strokes are closed contours of free space (filled plans), not of a pen
-    )
-    solids: tuple[
-        Polyline, ...
-    ] = ()  # rings of what is solid, by the even-odd rule: walls that have a thickness
-    metres_per_unit: float | None = (
-        None  # what the file or its reader says of the scale: a prior, never believed
-    )
+    contours: bool = False  # whether the strokes are contours of free space, as in filled plans, not of a pen
+    solids: tuple[Polyline, ...] = ()  # rings of thick walls, by the even-odd rule
+    metres_per_unit: float | None = None  # what the file says of its scale; localization does not use it
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
 
     def __post_init__(self) -> None:

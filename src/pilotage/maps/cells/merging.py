@@ -104,8 +104,8 @@ def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> N
     """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it."""
     joined = regions.copy()
     areas = region_areas(tessellation, regions)
+    sides = regions[tessellation.sides]
     for number in np.flatnonzero(areas > 0.0):
-        sides = regions[tessellation.sides]
         beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
         widths = tessellation.widths[beside]
         others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])

@@ -1,0 +1,76 @@
+"""Doors, shut leaves and windows in walls of one line, of two and of paint."""
+
+import pytest
+
+from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
+from pilotage.interpretation import Pen, Role, Sheet, interpret
+
+PEN = Pen(BLACK, 1.0)
+WALL = stroke((50, 0), (50, 80))
+OUTER = [(0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80), (96, 0, 100, 80)]
+INNER = [(48, 0, 52, 30), (48, 42, 52, 80)]
+
+
+def roles(marks):
+    return [meaning.role for meaning in interpret(Sheet(tuple(marks))).meanings]
+
+
+@pytest.mark.parametrize("opened", [30, 60, 90, 110])
+def test_a_leaf_may_stand_ajar(opened):
+    arced = arc((50, 30), 12, 90 - opened, 90)
+    leaf = stroke((50, 30), arced.outlines[0].vertices[0])
+
+    assert are_joined((OUTSIDE, WALL, leaf, arced))
+    assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, WALL, leaf, arced))
+
+
+def test_a_leaf_may_have_a_thickness():
+    leaf = box(50, 29.5, 62, 30.5, pen=PEN)
+
+    assert are_joined((OUTSIDE, WALL, leaf, arc((50, 30), 12, 0, 90)))
+
+
+def test_two_leaves_make_one_double_door():
+    lower = (stroke((50, 30), (57, 30)), arc((50, 30), 7, 0, 90))
+    upper = (stroke((50, 44), (57, 44)), arc((50, 44), 7, -90, 0))
+
+    marks = (OUTSIDE, WALL, *lower, *upper)
+
+    assert are_joined(marks)
+    assert [Role.DOOR] * 4 == roles(marks)[2:]
+
+
+def test_an_arc_far_from_any_wall_is_no_door():
+    lamp = arc((20, 20), 8, 0, 90)
+
+    assert Role.DOOR not in roles((OUTSIDE, WALL, lamp))
+
+
+def test_walls_of_two_lines_have_a_thickness_and_doors_cut_both():
+    faces = (OUTSIDE, box(3, 3, 48.5, 77, pen=PEN), box(51.5, 3, 97, 77, pen=PEN))
+    door = (stroke((51.5, 30), (63.5, 30)), arc((51.5, 30), 12, 0, 90))
+
+    assert interpret(Sheet(faces)).sketch.solids
+    assert not are_joined(faces)
+    assert are_joined((*faces, *door))
+
+
+def test_painted_walls_are_cut_where_a_door_is_drawn_over_them():
+    outer = [box(*sides, fill=BLACK) for sides in OUTER]
+    door = (stroke((52, 30), (64, 30)), arc((52, 30), 12, 0, 90))
+
+    assert not are_joined((*outer, box(48, 0, 52, 80, fill=BLACK)))
+    assert are_joined((*outer, box(48, 0, 52, 80, fill=BLACK), *door))
+
+
+def test_a_window_in_an_outer_wall_closes():
+    broken = [(0, 0, 20, 4), (32, 0, 100, 4), *OUTER[1:]]
+    painted = [box(*sides, fill=BLACK) for sides in broken + INNER]
+    glass = [stroke((20, y), (32, y)) for y in (0.0, 2.0, 4.0)]
+
+    whole = [box(*sides, fill=BLACK) for sides in OUTER + INNER]
+
+    assert are_joined((*painted, *glass))
+    assert len(graph_of(whole).cells) == len(graph_of((*painted, *glass)).cells)
+    solid = interpret(Sheet((*painted, *glass))).sketch.solids
+    assert any(line.vertices[:, 0].min() < 20 and line.vertices[:, 0].max() > 32 for line in solid)

@@ -1,0 +1,125 @@
+"""Paper, letters, names of layers, and words."""
+
+import numpy as np
+import pytest
+
+from flats import BLACK, WHITE, WITH_GAP, are_joined, box, graph_of, stroke
+from pilotage.geometry import Polyline
+from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
+from pilotage.interpretation.names import guessed_role
+from pilotage.interpretation.words import find_names
+
+NIGHT = (0.1, 0.1, 0.15)
+
+
+def letter(x, y=40.0, size=2.0):
+    """A round letter, turned into an outline."""
+    angles = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    ring = np.array((x, y)) + size / 2.0 * np.column_stack([np.cos(angles), np.sin(angles)])
+    return Mark((Polyline(ring, closed=True),), None, BLACK)
+
+
+def meanings(marks, **options):
+    return interpret(Sheet(tuple(marks), **options)).meanings
+
+
+def test_light_lines_on_a_dark_ground_are_walls():
+    light = [Mark(mark.outlines, Pen(WHITE, 1.0), mark.fill and WHITE, mark.names) for mark in WITH_GAP]
+    paper = box(-5, -5, 105, 85, fill=NIGHT)
+
+    by_background = interpret(Sheet(tuple(light), background=NIGHT))
+    by_paper = interpret(Sheet((paper, *light), page=(-5.0, -5.0, 105.0, 85.0)))
+
+    assert by_background.sketch.strokes == by_paper.sketch.strokes
+    assert len(light) == len(by_paper.sketch.strokes)
+    assert (Role.IGNORE, "the sheet below the drawing") == (
+        by_paper.meanings[0].role,
+        by_paper.meanings[0].reason,
+    )
+
+
+def test_a_colored_rectangle_on_a_part_of_the_page_is_no_paper():
+    marks = (box(0, 0, 100, 80, fill=NIGHT), *WITH_GAP)
+
+    assert Role.IGNORE is not meanings(marks, page=(-100.0, -100.0, 200.0, 180.0))[0].role
+
+
+def test_ink_in_the_color_of_the_ground_is_not_seen():
+    hidden = stroke((0, 40), (100, 40), color=(0.98, 0.98, 0.98))
+
+    assert "painted over" == meanings((hidden, *WITH_GAP))[0].reason
+    assert are_joined((hidden, *WITH_GAP))
+
+
+def test_rows_of_small_round_shapes_are_letters_and_one_alone_is_not():
+    word = [letter(x) for x in (20.0, 22.5, 25.0, 27.5)]
+
+    assert [Role.LABEL] * 4 == [meaning.role for meaning in meanings((*WITH_GAP, *word))[3:]]
+    assert Role.LABEL is not meanings((*WITH_GAP, letter(20.0)))[3].role
+    assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, *word)).cells)
+
+
+@pytest.mark.parametrize(
+    ("name", "role"),
+    [
+        ("A-WALL-FULL", Role.WALL),
+        ("wandInnen", Role.WALL),
+        ("Türen 2", Role.DOOR),
+        ("porte_int", Role.DOOR),
+        ("fenêtres", Role.WINDOW),
+        ("ESCALERA", Role.STAIRS),
+        ("мебель", Role.FURNITURE),
+        ("Bemaßung", Role.IGNORE),
+        ("testo", Role.LABEL),
+    ],
+)
+def test_names_of_layers_tell_roles_in_many_languages(name, role):
+    assert (role, f"its name is {name!r}") == guessed_role([name])
+
+
+@pytest.mark.parametrize("name", ["Layer 1", "0", "g1234", "wallaby", ""])
+def test_names_that_say_nothing_tell_no_role(name):
+    assert guessed_role([name]) is None
+
+
+def test_the_innermost_name_tells_the_role_and_a_hint_wins_over_all():
+    assert (Role.FURNITURE, "its name is 'chair'") == guessed_role(["wall", "chair"])
+    line = stroke((10, 10), (20, 10), names=("goal", "x7"))
+    said = interpret(Sheet((*WITH_GAP, line)), {"x7": Role.IGNORE})
+    assert (Role.IGNORE, "you said that 'x7' is ignore") == (
+        said.meanings[-1].role,
+        said.meanings[-1].reason,
+    )
+    assert said.sketch.goal is None
+
+
+def test_marks_and_texts_named_start_and_goal_are_where_they_stand():
+    start = box(10, 10, 14, 14, fill=BLACK, names=("start",))
+    goal = Text("X", (80.0, 40.0), 3.0, names=("goal",))
+
+    sketch = interpret(Sheet((*WITH_GAP, start), (goal,))).sketch
+
+    assert ((12.0, 12.0), (80.0, 40.0), ()) == (sketch.start, sketch.goal, sketch.labels)
+    assert len(WITH_GAP) == len(sketch.strokes)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, np.pi / 2.0, np.pi])
+def test_lines_of_words_are_joined_along_any_baseline(angle):
+    down = 4.0 * np.array([np.sin(angle), -np.cos(angle)])
+    lines = [
+        Text(word, tuple((k * down).tolist()), 3.0, angle)
+        for k, word in enumerate(["Open", "plan", "office", "11.2 m²", "--"])
+    ]
+    far = Text("Lobby", tuple((30.0 * down).tolist()), 3.0, angle)
+
+    names = find_names(list(enumerate([*lines, far])))
+
+    assert ["Open plan office", "Lobby"] == [name.words for name in names]
+    assert (0, 1, 2) == names[0].members
+    assert names[0].position == pytest.approx(tuple(down))
+
+
+def test_a_title_and_a_small_word_below_it_are_two_names():
+    texts = [Text("KITCHEN", (0.0, 0.0), 6.0), Text("tiled", (0.0, -6.0), 3.0)]
+
+    assert ["KITCHEN", "tiled"] == [name.words for name in find_names(list(enumerate(texts)))]
