@@ -90,9 +90,10 @@ def record(
 
 def scale_of(sketch: "SchematicMap", given: float | None, estimated: Sequence[float]) -> float:
     """Choose the scale of the frame `map` [drawing units per metre]."""
-    if given is not None:
-        return given
-    return 1.0 / sketch.metres_per_unit if sketch.metres_per_unit else float(estimated[-1])
+    from pilotage.io.bags.belief import known_scale
+
+    known = known_scale(sketch, given)
+    return float(estimated[-1]) if known is None else known
 
 
 def write(
