@@ -11,16 +11,16 @@ person, by the same code; `--figure` writes a picture of one building at six sev
 """
 
 import argparse
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.lib.arguments import add_jobs, names_of, positive
+from benchmarks.lib.arguments import add_jobs, add_names, positive
 from benchmarks.lib.data import BUILDINGS, LOGS, drawing_of, folder_of
 from benchmarks.lib.protocols import Followed, Task, follow_all
-from benchmarks.lib.results import Figures
+from benchmarks.lib.results import Figures, mean_of
 from benchmarks.lib.rungs import plan_of, rung_name
 from pilotage.evaluation.deformation import Plan, Statistics, deform, read_plan, statistics_of
 from pilotage.evaluation.episodes import score
@@ -52,14 +52,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=",".join(map(str, SEVERITIES)),
         help="(default: %(default)s)",
     )
-    parser.add_argument(
-        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
-    )
+    add_names(parser, "--buildings", BUILDINGS)
     parser.add_argument(
         "--people", type=positive, default=PEOPLE, help="drawings of each (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--first-person", type=int, default=0, help="seed of the first (default: %(default)s)"
     )
     parser.add_argument(
         "--episodes", type=positive, default=EPISODES, help="for each drawing (default: %(default)s)"
@@ -85,7 +80,7 @@ def measure(arguments: argparse.Namespace) -> Figures:
     if arguments.figure:
         draw_strip(arguments.figure)
         return {}
-    persons = range(arguments.first_person, arguments.first_person + arguments.people)
+    persons = range(arguments.people)
     if arguments.statistics:
         return {"statistics": measure_drawings(arguments.buildings, persons)}
     tasks = [
@@ -126,19 +121,13 @@ def summarize(followed: Sequence[Followed]) -> Figures:
     }
 
 
-def mean_of(rows: Sequence[Figures]) -> Figures:
-    """Average figures by name."""
-    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
-
-
-def measure_drawings(buildings: Sequence[str], persons: Iterable[int]) -> Figures:
+def measure_drawings(buildings: Sequence[str], persons: Sequence[int]) -> Figures:
     """Print how far drawings at severity 1 are from the truth, beside drawings by people."""
-    people = list(persons)
     ladder = mean_of(
         [
             asdict(drawing_statistics(deform(plan_of(building), 1.0, person), building, "draftsman"))
             for building in buildings
-            for person in people
+            for person in persons
         ]
     )
     freehand = asdict(

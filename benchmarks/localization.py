@@ -12,14 +12,13 @@ freiburg-101 are held out.
 
 import argparse
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
 from benchmarks.lib.arguments import add_drawings, add_jobs, positive
 from benchmarks.lib.data import BUILDINGS, HANDS, PEOPLE, TUNED, drawings
 from benchmarks.lib.protocols import Followed, Task, follow_all
-from benchmarks.lib.results import Figures
+from benchmarks.lib.results import Figures, mean_of
 from benchmarks.lib.tables import percent, percent_in, prose, table
 from pilotage.evaluation.episodes import lost, score, settled
 from pilotage.evaluation.intervals import bootstrap_interval
@@ -100,15 +99,6 @@ def summarize(followed: Followed) -> Figures:
 def quantile(values: Array, share: float) -> float | None:
     """Return a quantile; None if there is nothing."""
     return float(np.quantile(values, share)) if len(values) else None
-
-
-def mean_of(rows: Sequence[Figures]) -> Figures:
-    """Average figures over buildings; intervals are left out, and so is what no building has."""
-    return {
-        name: float(np.mean(values))
-        for name in (rows[0] if rows else ())
-        if not name.endswith("_interval") and (values := [row[name] for row in rows if row[name] is not None])
-    }
 
 
 def line(building: str, hand: str, row: Figures) -> str:

@@ -13,6 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from benchmarks.lib.arguments import positive
 from benchmarks.lib.bag_making import KINDS
 from benchmarks.lib.long_logs import four_formats, write_long_bag
 from benchmarks.lib.results import Figures
@@ -32,7 +33,7 @@ print(json.dumps({"scans": count, "seconds": time.perf_counter() - began, "mb": 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose the length of the log."""
-    parser.add_argument("--scans", type=int, default=100_000, help="(default: %(default)s)")
+    parser.add_argument("--scans", type=positive, default=100_000, help="(default: %(default)s)")
 
 
 def measure(arguments: argparse.Namespace) -> Figures:

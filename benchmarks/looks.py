@@ -15,7 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from benchmarks.lib.arguments import names_of, positive
+from benchmarks.lib.arguments import add_names, positive
 from benchmarks.lib.data import BUILDINGS
 from benchmarks.lib.looks import looks_of
 from benchmarks.lib.people import SKETCHED, SKETCHES
@@ -36,12 +36,8 @@ Ranks = dict[str, list[int]]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose drawings and the number of looks."""
-    parser.add_argument(
-        "--drawings", type=names_of(DRAWINGS), default=",".join(DRAWINGS), help="(default: %(default)s)"
-    )
-    parser.add_argument(
-        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
-    )
+    add_names(parser, "--drawings", DRAWINGS)
+    add_names(parser, "--buildings", BUILDINGS)
     parser.add_argument("--looks", type=positive, default=LOOKS, help="for each log (default: %(default)s)")
     parser.add_argument(
         "--people", type=positive, default=1, help="drawings of each rung (default: %(default)s)"

@@ -30,7 +30,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.lib.arguments import add_drawings, add_jobs, names_of, positive, seconds
+from benchmarks.lib.arguments import add_drawings, add_jobs, add_names, positive, seconds
 from benchmarks.lib.data import PACKED_HANDS, TUNED
 from benchmarks.lib.drives import Job, Options, Result, make, sites
 from benchmarks.lib.errands import choose_errands
@@ -49,9 +49,7 @@ Row = dict[str, object]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose drives, and what is kept of each."""
     add_drawings(parser)
-    parser.add_argument(
-        "--modes", type=names_of(MODES), default=",".join(MODES), help="(default: %(default)s)"
-    )
+    add_names(parser, "--modes", tuple(MODES))
     parser.add_argument("--pairs", type=positive, default=6, help="drives a drawing (default: %(default)s)")
     parser.add_argument("--only", type=int, help="make only the drive of this number of each drawing")
     add_jobs(parser)

@@ -12,14 +12,13 @@ one region to the centre of another; a drive has reached it if the robot says so
 
 import argparse
 from collections import Counter
-from collections.abc import Sequence
 
 import numpy as np
 
-from benchmarks.lib.arguments import add_jobs, names_of, positive
+from benchmarks.lib.arguments import add_jobs, add_names, positive
 from benchmarks.lib.people import FOLDER, SKETCHED, SKETCHES, places, read_matches, regions_of, world
 from benchmarks.lib.protocols import Followed, Task, follow_all, sketch_of, travel_of
-from benchmarks.lib.results import Figures
+from benchmarks.lib.results import Figures, mean_of
 from pilotage.drives import navigate
 from pilotage.errors import PilotageError
 from pilotage.evaluation.episodes import score
@@ -31,9 +30,7 @@ EPISODES = 4
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose sketches, episodes and drives."""
-    parser.add_argument(
-        "--sketches", type=names_of(SKETCHES), default=",".join(SKETCHES), help="(default: %(default)s)"
-    )
+    add_names(parser, "--sketches", SKETCHES)
     parser.add_argument(
         "--episodes", type=positive, default=EPISODES, help="for each sketch (default: %(default)s)"
     )
@@ -96,11 +93,6 @@ def centre_of(number: str, name: str) -> tuple[float, float]:
     centres, _ = read_matches(FOLDER / f"gt_{number}_model_simple.dat")
     x, y = centres[name][0].tolist()
     return x, y
-
-
-def mean_of(rows: Sequence[Figures]) -> Figures:
-    """Average figures over sketches."""
-    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
 
 
 def line(number: str, row: Figures) -> str:

@@ -13,6 +13,7 @@ import time
 
 import numpy as np
 
+from benchmarks.lib.arguments import positive
 from benchmarks.lib.dds_robot import DdsRobot, run_together
 from benchmarks.lib.results import Figures
 from pilotage import Settings, open_map, open_world, worlds
@@ -46,7 +47,7 @@ class TimedSession(Session):
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose how many drives."""
-    parser.add_argument("--seeds", type=int, default=20, help="(default: %(default)s)")
+    parser.add_argument("--seeds", type=positive, default=20, help="(default: %(default)s)")
 
 
 def measure(arguments: argparse.Namespace) -> Figures:

@@ -24,6 +24,8 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.lib.arguments import positive, seconds
+from benchmarks.lib.data import ROOT
 from benchmarks.lib.results import Figures
 from benchmarks.lib.table_server import TableServer, heard, serving
 from benchmarks.lib.tables import table
@@ -33,13 +35,13 @@ QUESTIONS = 40
 STROKES = 60
 PAUSE = 0.25  # [s] between two questions of a page under load
 IN_OFFICE = {"drawing": "example:office/quick", "world": "packed:office", "goal": "Ana"}
-STATIC = Path("src/pilotage/web/static")
+STATIC = ROOT / "src" / "pilotage" / "web" / "static"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose how long and how much."""
-    parser.add_argument("--seconds", type=float, default=60.0, help="under load (default: %(default)s)")
-    parser.add_argument("--drives", type=int, default=8, help="at once (default: %(default)s)")
+    parser.add_argument("--seconds", type=seconds, default=60.0, help="under load (default: %(default)s)")
+    parser.add_argument("--drives", type=positive, default=8, help="at once (default: %(default)s)")
 
 
 def measure(arguments: argparse.Namespace) -> Figures:
@@ -167,7 +169,7 @@ def zipped_size() -> int:
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(STATIC.rglob("*")):
-            archive.write(path)
+            archive.write(path, path.relative_to(STATIC))
     return len(packed.getvalue())
 
 

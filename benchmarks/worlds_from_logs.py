@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.lib.arguments import names_of
+from benchmarks.lib.arguments import add_names
 from benchmarks.lib.data import BUILDINGS
 from benchmarks.lib.occupancy import PIXEL, REACH, Plan, path_pixels, plan_of
 from benchmarks.lib.results import Figures
@@ -30,9 +30,7 @@ CHECKED = 200  # scans of a log at most are taken again
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose buildings, and where the worlds go."""
-    parser.add_argument(
-        "--buildings", type=names_of(BUILDINGS), default=",".join(BUILDINGS), help="(default: %(default)s)"
-    )
+    add_names(parser, "--buildings", BUILDINGS)
     parser.add_argument(
         "--output", type=Path, default=CACHE, help="folder of the worlds (default: %(default)s)"
     )

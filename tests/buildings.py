@@ -1,4 +1,4 @@
-"""Small buildings and robots for the tests of localization."""
+"""Small buildings and robots for the tests."""
 
 import itertools
 import math
@@ -15,6 +15,20 @@ WALLS = (
     Polyline.through([(0, 0), (8, 0), (8, 3), (10, 3), (10, 7), (6, 7), (6, 4.2)]),
     Polyline.through([(6, 3.2), (6, 3), (3, 3), (3, 7), (0, 7), (0, 0)]),
     Polyline.through([(6, 7), (3, 7)]),
+)
+
+
+# A corridor across, and two rooms on each side of it, a door each: strokes, each a list of points.
+CORRIDOR_AND_FOUR_ROOMS = (
+    [(0, 0), (20, 0), (20, 12), (0, 12), (0, 0)],
+    [(10, 0), (10, 5)],
+    [(10, 7), (10, 12)],
+    [(0, 5), (4, 5)],
+    [(5, 5), (14, 5)],
+    [(15, 5), (20, 5)],
+    [(0, 7), (4, 7)],
+    [(5, 7), (14, 7)],
+    [(15, 7), (20, 7)],
 )
 
 

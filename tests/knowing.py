@@ -18,13 +18,9 @@ def hypothesis_at(pose, *, scale=1.0, cell_id="", probability=1.0, position_std=
 
 def estimate_of(*hypotheses, stamp=0.0, status=Status.LOCATED, cell_probability=1.0, fit=1.0, y_down=False):
     """Claim the first of these hypotheses."""
-    sketch_from_base = hypotheses[0].sketch_from_base
-    axes = FileAxes(y_down)
-    pose = axes.pose_from_sketch(sketch_from_base.pose)
     return Estimate(
         stamp=stamp, status=status, hypotheses=hypotheses, cell_probability=cell_probability, fit=fit,
-        place=hypotheses[0].cell_id, x=pose.x, y=pose.y, heading=pose.theta,
-        scale=sketch_from_base.scale, file_axes=axes,
+        place=hypotheses[0].cell_id, file_axes=FileAxes(y_down),
     )  # fmt: skip
 
 

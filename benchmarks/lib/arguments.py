@@ -15,10 +15,21 @@ def add_drawings(
     known_hands: Sequence[str] = HANDS,
 ) -> None:
     """Let the user choose drawings of buildings."""
-    for name, default, known in (("--buildings", buildings, BUILDINGS), ("--hands", hands, known_hands)):
-        parser.add_argument(
-            name, type=names_of(known), default=",".join(default), help="(default: %(default)s)"
-        )
+    add_names(parser, "--buildings", buildings, known=BUILDINGS)
+    add_names(parser, "--hands", hands, known=known_hands)
+
+
+def add_names(
+    parser: argparse.ArgumentParser,
+    option: str,
+    default: Sequence[str],
+    *,
+    known: Collection[str] | None = None,
+) -> None:
+    """Let the user choose names from those that are known: if not told, those by default."""
+    parser.add_argument(
+        option, type=names_of(known or default), default=",".join(default), help="(default: %(default)s)"
+    )
 
 
 def add_jobs(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,8 @@ from pathlib import Path
 
 import shapely
 
-from benchmarks.lib.data import ROOT
+from benchmarks.lib.data import DATA, ROOT
+from pilotage.errors import FileError, PilotageError
 
 LIMIT_S = 60
 """A drawing that takes more time of the processor counts as not read."""
@@ -73,8 +74,11 @@ def main() -> None:
     try:
         sketch = open_map(sys.argv[1])
         graph = decompose(sketch, DecompositionSettings())
+    except FileError as error:
+        print(json.dumps(unread(f"{error.rule}: {name_of(error.path)}", time.process_time() - start)))
+        return
     except Exception as error:  # noqa: BLE001  # whatever goes wrong is a result
-        name = "" if type(error).__module__.startswith("pilotage") else f"{type(error).__name__}: "
+        name = "" if isinstance(error, PilotageError) else f"{type(error).__name__}: "
         print(json.dumps(unread(f"{name}{error}", time.process_time() - start)))
         return
     seconds = time.process_time() - start
@@ -91,6 +95,11 @@ def main() -> None:
         "mb": peak_mb(),
     }
     print(json.dumps(found))
+
+
+def name_of(path: Path) -> str:
+    """Name a file by its place in the data folder, where it lies there: results are alike on all machines."""
+    return str(path.relative_to(DATA) if path.is_relative_to(DATA) else path)
 
 
 def unread(error: str, seconds: float) -> dict[str, object]:

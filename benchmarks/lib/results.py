@@ -4,10 +4,13 @@ import json
 import os
 import platform
 import subprocess
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from benchmarks.lib.data import ROOT
 from pilotage.io.files import write_text
@@ -83,3 +86,12 @@ def load(name: str, folder: Path = FOLDER) -> Measurement | None:
     """Read the last measurement of a benchmark; None if there is none."""
     path = folder / f"{name}.json"
     return Measurement(**json.loads(path.read_text())) if path.exists() else None
+
+
+def mean_of(rows: Sequence[Figures]) -> Figures:
+    """Average figures by name; intervals are left out, and so is what no row has."""
+    return {
+        name: float(np.mean(values))
+        for name in (rows[0] if rows else ())
+        if not name.endswith("_interval") and (values := [row[name] for row in rows if row[name] is not None])
+    }

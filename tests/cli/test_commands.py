@@ -7,7 +7,20 @@ import pytest
 
 from pilotage import worlds
 
-COMMANDS = ("cells", "demo", "localize", "navigate", "perceive", "settings", "simplify")
+COMMANDS = (
+    "cells",
+    "check",
+    "demo",
+    "localize",
+    "navigate",
+    "perceive",
+    "record",
+    "ros2",
+    "settings",
+    "simplify",
+    "table",
+    "which",
+)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -222,6 +235,6 @@ def test_settings_change_what_a_command_does(pilotage, tmp_path, words, content)
     assert changed.out != plain.out
 
 
-@pytest.mark.parametrize("command", ["cells", "demo", "localize", "navigate", "perceive", "simplify"])
+@pytest.mark.parametrize("command", [name for name in COMMANDS if name not in {"settings", "table", "which"}])
 def test_commands_that_have_settings_read_them_from_a_file(pilotage, command):
     assert "--settings" in pilotage(command, "--help").out

@@ -12,7 +12,7 @@ HERE = PoseHypothesis("a", Affine2.from_state(0.0, 0.0, 0.0, 0.0, 0.0, 0.0) @ Po
 
 def estimate(k, located):
     status = Status.LOCATED if located else Status.LOST
-    return Estimate(float(k), status, (HERE,), 0.9, 0.5, "a", 0.0, 0.0, 0.0, 1.0)
+    return Estimate(float(k), status, (HERE,), 0.9, 0.5, "a")
 
 
 @given(st.lists(st.booleans(), min_size=1, max_size=80))

@@ -10,24 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import pilotage
+from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage import worlds
 from pilotage.findings import MendKind, Severity, for_ends, report, worst
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import Label, SchematicMap
 
-BOX = [(0, 0), (20, 0), (20, 12), (0, 12), (0, 0)]
-CORRIDOR_AND_FOUR_ROOMS = (
-    BOX,
-    [(10, 0), (10, 5)],
-    [(10, 7), (10, 12)],
-    [(0, 5), (4, 5)],
-    [(5, 5), (14, 5)],
-    [(15, 5), (20, 5)],
-    [(0, 7), (4, 7)],
-    [(5, 7), (14, 7)],
-    [(15, 7), (20, 7)],
-)
 NAMES = (
     Label("Ann", (5.0, 2.0)),
     Label("Ben", (15.0, 2.0)),

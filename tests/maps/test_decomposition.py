@@ -9,6 +9,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.io.maps import open_map
 from pilotage.maps import CellGraph, CellSize, DecompositionSettings, Label, SchematicMap, decompose
@@ -26,17 +27,6 @@ def decomposed(*strokes, labels=()):
 
 BOX = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
 TWO_ROOMS = (BOX, [(5, 0), (5, 2)], [(5, 3), (5, 5)])
-CORRIDOR_AND_FOUR_ROOMS = (
-    [(0, 0), (20, 0), (20, 12), (0, 12), (0, 0)],
-    [(10, 0), (10, 5)],
-    [(10, 7), (10, 12)],
-    [(0, 5), (4, 5)],
-    [(5, 5), (14, 5)],
-    [(15, 5), (20, 5)],
-    [(0, 7), (4, 7)],
-    [(5, 7), (14, 7)],
-    [(15, 7), (20, 7)],
-)
 L_CORRIDOR = ([(0, 0), (12, 0), (12, 10), (10, 10), (10, 2), (0, 2), (0, 0)],)
 OFFICE = (*CORRIDOR_AND_FOUR_ROOMS, [(20, 0), (26, 0), (26, 5.5)], [(26, 6.5), (26, 12), (20, 12)])
 

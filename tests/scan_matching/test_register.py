@@ -8,6 +8,7 @@ import pytest
 from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan, PerceptionSettings, perceive
 from pilotage.scan_matching import LocalMap, Method, MotionPrior, OdometryNoise, register
+from pilotage.scan_matching.register import find_unmatched
 
 WALLS = (
     ((-4, -3), (5, -3)),
@@ -97,16 +98,17 @@ def test_into_an_empty_map_all_is_new():
 
     assert registration.odom_from_base == START
     assert registration.inlier_share == 0.0
-    assert registration.unmatched == tuple(range(len(shapes)))
+    assert find_unmatched(shapes, LocalMap(), registration.odom_from_base) == tuple(range(len(shapes)))
 
 
 def test_a_scan_that_shows_nothing_moves_by_odometry():
     motion = Pose2(0.4, 0.0, 0.2)
-    registration = register((), map_seen_from(START), prior_of(motion))
+    local_map = map_seen_from(START)
+    registration = register((), local_map, prior_of(motion))
 
     assert registration.odom_from_base == START @ motion
     assert registration.fit is None
-    assert registration.unmatched == ()
+    assert find_unmatched((), local_map, registration.odom_from_base) == ()
 
 
 def test_what_is_seen_again_is_not_new():
@@ -114,7 +116,7 @@ def test_what_is_seen_again_is_not_new():
     shapes = shapes_at(START @ motion, seed=1)
     registration = register(shapes, local_map, prior_of(motion))
 
-    assert len(registration.unmatched) < len(shapes)
+    assert len(find_unmatched(shapes, local_map, registration.odom_from_base)) < len(shapes)
 
 
 def test_along_a_corridor_good_odometry_holds():

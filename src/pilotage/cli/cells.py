@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing, tell_worst
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, neighbors_of, open_drawing, tell_worst
+from pilotage.cli.options import Force, GoalPlace, SettingsFile, StartPlace
 from pilotage.cli.places import find_place
 from pilotage.cli.terminal import check_outputs, say
 
@@ -16,16 +17,8 @@ if TYPE_CHECKING:
 def cells(
     drawing: Map,
     *,
-    start: Annotated[
-        str | None,
-        typer.Option(
-            metavar="X,Y|LABEL", help="Where a route begins.", show_default="as marked in the drawing"
-        ),
-    ] = None,
-    goal: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y|LABEL", help="Where it ends.", show_default="as marked in the drawing"),
-    ] = None,
+    start: StartPlace = None,
+    goal: GoalPlace = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", help="Where to write cells, gateways and route (GeoJSON)."),
@@ -35,8 +28,8 @@ def cells(
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    settings: SettingsFile = None,
+    force: Force = False,
 ) -> None:
     """Divide a drawing into rooms, halls and corridors, and find a route through them.
 
@@ -112,7 +105,7 @@ def describe(graph: "CellGraph") -> str:
     """List the cells, each with its size, label and neighbors."""
     lines = [f"{len(graph.cells)} cells, {len(graph.gateways)} gateways"]
     for cell in graph.cells:
-        neighbors = sorted({neighbor.cell_id for neighbor in graph.neighbors(cell.cell_id)})
+        neighbors = neighbors_of(cell.cell_id, graph)
         beside = f"next to {', '.join(neighbors)}" if neighbors else "without a gateway"
         words = f" {cell.label!r}" if cell.label else ""
         lines.append(f"{cell.cell_id}{words}, {cell.size.value}, {beside}")

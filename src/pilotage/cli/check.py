@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, division_in, neighbors_of, open_drawing
 from pilotage.cli.exits import FAILURE
+from pilotage.cli.options import Force, GoalPlace, SettingsFile, StartPlace
 from pilotage.cli.places import find_place
 from pilotage.cli.terminal import check_outputs, say
 
 if TYPE_CHECKING:
     from pilotage.findings import Finding, Report
-    from pilotage.maps import SchematicMap
+    from pilotage.maps import CellGraph, SchematicMap
 
 
 OF_A_KIND = 3
@@ -24,14 +25,8 @@ OF_A_KIND = 3
 def check(
     drawing: Map,
     *,
-    start: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y|LABEL", help="Where to start.", show_default="as marked in the drawing"),
-    ] = None,
-    goal: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y|LABEL", help="Where to go.", show_default="as marked in the drawing"),
-    ] = None,
+    start: StartPlace = None,
+    goal: GoalPlace = None,
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw what was understood (.png, .svg, .pdf).")
     ] = None,
@@ -40,8 +35,8 @@ def check(
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    settings: SettingsFile = None,
+    force: Force = False,
 ) -> None:
     """Tell what is understood of a drawing, and what looks wrong with it.
 
@@ -60,11 +55,7 @@ def check(
     check_outputs([figure], force=force)
     from pilotage.findings import Severity, report
 
-    division = None
-    if settings is not None:
-        from pilotage.config import read_settings
-
-        division = read_settings(settings).localizer.atlas.decomposition
+    division = division_in(settings)
     opened = open_drawing(drawing, layer, label, page, shading)
     found = report(opened.sketch, opened.interpretation, settings=division)
     found = with_ends(found, start, goal)
@@ -103,9 +94,9 @@ def describe(name: str, found: "Report") -> str:
     lines = [f"{name}: {counted(found)}"]
     if found.graph is not None:
         for cell in found.graph.cells:
-            beside = sorted({neighbor.cell_id for neighbor in found.graph.neighbors(cell.cell_id)})
             words = f" {cell.label!r}" if cell.label else ""
-            lines.append(f"  {cell.cell_id}{words}: {', '.join(beside) or 'no door'}")
+            beside = ", ".join(neighbors_of(cell.cell_id, found.graph)) or "no door"
+            lines.append(f"  {cell.cell_id}{words}: {beside}")
     lines += [f"  {line}" for line in marks_in_words(found)]
     lines += listed(found.findings) or ["nothing looks wrong"]
     return "\n".join(lines)
@@ -149,37 +140,40 @@ def marks_in_words(found: "Report") -> list[str]:
 
 def json_of(found: "Report", remarks: tuple[str, ...]) -> dict[str, object]:
     """Write what was understood as nested dictionaries, points in the axes of the file."""
-    cells, gateways = [], []
-    if found.graph is not None:
-        for cell in found.graph.cells:
-            neighbors = sorted({neighbor.cell_id for neighbor in found.graph.neighbors(cell.cell_id)})
-            cells.append(
-                {
-                    "id": cell.cell_id,
-                    "label": cell.label,
-                    "size": cell.size.value,
-                    "center": points(found.sketch, [cell.center])[0],
-                    "neighbors": neighbors,
-                }
-            )
-        gateways = [
-            {
-                "id": gateway.gateway_id,
-                "cells": list(gateway.cell_ids),
-                "segment": points(found.sketch, gateway.segment.tolist()),
-            }
-            for gateway in found.graph.gateways
-        ]
     roles: Counter[str] = Counter()
     if found.interpretation is not None:
         roles.update(meaning.role.value for meaning in found.interpretation.meanings)
     return {
-        "cells": cells,
-        "gateways": gateways,
+        **json_of_graph(found.graph, found.sketch),
         "marks": dict(roles),
         "assumed": list(remarks),
         "findings": [finding.as_json for finding in found.findings],
     }
+
+
+def json_of_graph(graph: "CellGraph | None", sketch: "SchematicMap") -> dict[str, object]:
+    """Write cells and gateways, none without a graph; points in the axes of the file."""
+    if graph is None:
+        return {"cells": [], "gateways": []}
+    cells = [
+        {
+            "id": cell.cell_id,
+            "label": cell.label,
+            "size": cell.size.value,
+            "center": points(sketch, [cell.center])[0],
+            "neighbors": neighbors_of(cell.cell_id, graph),
+        }
+        for cell in graph.cells
+    ]
+    gateways = [
+        {
+            "id": gateway.gateway_id,
+            "cells": list(gateway.cell_ids),
+            "segment": points(sketch, gateway.segment.tolist()),
+        }
+        for gateway in graph.gateways
+    ]
+    return {"cells": cells, "gateways": gateways}
 
 
 def points(sketch: "SchematicMap", places: list[tuple[float, float]]) -> list[list[float]]:

@@ -9,6 +9,7 @@ import typer
 
 from pilotage.cli.drive import ANIMATION, FIGURE, JOURNAL, draw, drive_and_record, story
 from pilotage.cli.exits import signals_held
+from pilotage.cli.options import Seed, SettingsFile
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
@@ -26,8 +27,8 @@ GOAL = "Ana"
 def demo(
     *,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the results.")] = Path("demo"),
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    seed: Seed = 0,
+    settings: SettingsFile = None,
     force: Annotated[bool, typer.Option("--force", help="Replace files that the demo did not make.")] = False,
 ) -> None:
     """Drive a simulated robot through an office to a room that is named on a quick drawing.

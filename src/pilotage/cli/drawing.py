@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from pilotage.findings import Finding
     from pilotage.io.hints import DrawingHints
     from pilotage.io.maps import Drawing
-    from pilotage.maps import SchematicMap
+    from pilotage.maps import CellGraph, DecompositionSettings, SchematicMap
 
 SHADINGS = ("recognized", "light-is-free", "dark-is-free", "lines")
 
@@ -111,8 +111,18 @@ def findings_of(sketch: "SchematicMap", settings: Path | None) -> "tuple[Finding
     """Find what looks wrong with a drawing, divided as the settings say."""
     from pilotage.findings import check
 
+    return check(sketch, division_in(settings))
+
+
+def division_in(settings: Path | None) -> "DecompositionSettings | None":
+    """Read from a file of settings how drawings are divided into cells; None: as by default."""
     if settings is None:
-        return check(sketch)
+        return None
     from pilotage.config import read_settings
 
-    return check(sketch, read_settings(settings).localizer.atlas.decomposition)
+    return read_settings(settings).localizer.atlas.decomposition
+
+
+def neighbors_of(cell_id: str, graph: "CellGraph") -> list[str]:
+    """List the ids of the cells that gateways join to a cell, each once, in order."""
+    return sorted({neighbor.cell_id for neighbor in graph.neighbors(cell_id)})

@@ -1,12 +1,12 @@
 """`pilotage localize`: where the robot is on the drawing, scan by scan."""
 
-import math
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
+from pilotage.cli.options import Force, Scale, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_pose
 from pilotage.cli.run import (
     LOG_HELP,
@@ -37,24 +37,17 @@ def localize(
         int | None,
         typer.Option("--to", min=1, help="Scan to stop before.", show_default="the end of the log"),
     ] = None,
-    start: Annotated[
-        str | None,
-        typer.Option(
-            metavar="X,Y,HEADING_DEG",
-            help="Where the robot starts, in the drawing's own coordinates; the heading in degrees, "
-            "counter-clockwise on the page from its x axis.",
-        ),
-    ] = None,
-    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    start: StartPose = None,
+    scale: Scale = None,
+    seed: Seed = 0,
     layer: Layers = None,
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    settings: SettingsFile = None,
     scan_topic: ScanTopic = None,
     odometry_topic: OdometryTopic = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    force: Force = False,
 ) -> None:
     """Tell for every scan of a log where on the drawing the robot was.
 
@@ -70,8 +63,7 @@ def localize(
     - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
     """
     check_outputs([output, figure], force=force)
-    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
-        raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
+    check_positive(scale, "--scale")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
     readings = read_stretch(log, first, last, scan_topic, odometry_topic)

@@ -1,6 +1,5 @@
 """`pilotage navigate`: drive to a goal on a drawing, in a simulated world."""
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,6 +8,7 @@ import typer
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
 from pilotage.cli.exits import signals_held
+from pilotage.cli.options import GoalPlace, Scale, Seed, SettingsFile, check_positive
 from pilotage.cli.places import finite_numbers, parse_pose
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
@@ -27,10 +27,7 @@ def navigate(
     world: Annotated[
         Path, typer.Option(help="The true building to drive in: SVG in metres, or a ROS map (YAML).")
     ],
-    goal: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y|LABEL", help="Where to go.", show_default="as marked in the drawing"),
-    ] = None,
+    goal: GoalPlace = None,
     start: Annotated[
         str | None,
         typer.Option(
@@ -49,8 +46,8 @@ def navigate(
             show_default="as marked in the world, else somewhere free",
         ),
     ] = None,
-    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    scale: Scale = None,
+    seed: Seed = 0,
     time_limit: Annotated[
         float | None,
         typer.Option(
@@ -61,7 +58,7 @@ def navigate(
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    settings: SettingsFile = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", help="Folder for journal, figure and animation.", show_default="none"),
@@ -129,12 +126,6 @@ def navigate(
     if output is not None:
         draw(recorded, output, f"{drawing.name}: {told.split('. ')[0]}", moving=animation)
         say(f"See {output}.")
-
-
-def check_positive(value: float | None, option: str) -> None:
-    """Reject a number that must be positive and is not."""
-    if value is not None and not (math.isfinite(value) and value > 0.0):
-        raise typer.BadParameter(f"it must be positive, got {value}", param_hint=option)
 
 
 def goal_on(sketch: "SchematicMap", words: str | None) -> "Point | str":

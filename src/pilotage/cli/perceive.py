@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.options import Force, SettingsFile
 from pilotage.cli.run import LOG_HELP, ScanTopic
 from pilotage.cli.terminal import check_outputs, say
 from pilotage.errors import FileError
@@ -17,9 +18,9 @@ def perceive(
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw the scan and its shapes (.png, .svg, .pdf).")
     ] = None,
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    settings: SettingsFile = None,
     scan_topic: ScanTopic = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    force: Force = False,
 ) -> None:
     """See one scan as partial shapes (Wolter 2001, sections 2.1 and 2.2; figure 2).
 

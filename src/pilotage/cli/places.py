@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
-    from pilotage.geometry import Pose2
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.maps.routing.roadmap import Point
 
@@ -17,28 +16,15 @@ FARTHEST = 1e9
 
 def find_place(words: str, sketch: "SchematicMap", graph: "CellGraph") -> "Point":
     """Read `X,Y` in the axes of the drawing's file, or find the cell that bears a label."""
-    from pilotage.maps import find_labeled
-
-    place = point_or_label(words, sketch)
-    return find_labeled(graph, place) if isinstance(place, str) else place
-
-
-def point_or_label(words: str, sketch: "SchematicMap") -> "Point | str":
-    """Read `X,Y` in the axes of the drawing's file as a point of the sketch; all else is a label."""
     import numpy as np
+
+    from pilotage.maps import find_labeled
 
     numbers = finite_numbers(words)
     if len(numbers) != 2:
-        return words
-    position = sketch.sketch_from_file(np.array([numbers]))[0]
-    return float(position[0]), float(position[1])
-
-
-def pose_on(sketch: "SchematicMap", words: str, option: str) -> "Pose2":
-    """Read `X,Y,HEADING_DEG` in the axes of the drawing's file as a pose of the sketch."""
-    from pilotage.geometry import Pose2
-
-    return sketch.file_axes.pose_to_sketch(Pose2(*parse_pose(words, option)))
+        return find_labeled(graph, words)
+    x, y = sketch.sketch_from_file(np.array([numbers]))[0].tolist()
+    return x, y
 
 
 def parse_pose(words: str, option: str) -> tuple[float, float, float]:

@@ -1,6 +1,5 @@
 """`pilotage record`: what is believed along a log or a drive, as standard messages of ROS 2."""
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.options import Force, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_pose
 from pilotage.cli.run import OdometryTopic, ScanTopic, open_localizer, read_stretch, run
 from pilotage.cli.terminal import busy, check_outputs, say
@@ -25,26 +25,25 @@ def record(
     log: Annotated[
         Path,
         typer.Argument(
-            metavar="LOG", help="A laser log, as for `localize`, or the journal of a drive (JSON Lines)."
+            metavar="LOG",
+            help="A laser log, as for `localize`, or the journal of a drive or estimates (JSON Lines).",
         ),
     ],
     *,
     output: Annotated[Path, typer.Option("-o", "--output", help="The MCAP file to write.")],
-    start: Annotated[
-        str | None, typer.Option(metavar="X,Y,HEADING_DEG", help="Where the robot starts, as for `localize`.")
-    ] = None,
+    start: StartPose = None,
     scale: Annotated[
         float | None, typer.Option(help="Drawing units per metre, for the frame `map` as well.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    seed: Seed = 0,
     layer: Layers = None,
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
+    settings: SettingsFile = None,
     scan_topic: ScanTopic = None,
     odometry_topic: OdometryTopic = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    force: Force = False,
 ) -> None:
     """Write what is believed along a log or a drive as an MCAP file of standard messages.
 
@@ -53,13 +52,16 @@ def record(
     The frame *map* is the drawing at one scale: `--scale`, or what the file says, or
     the scale at the end of the log.
 
-    **Example:** `pilotage record office.svg run.mcap -o beliefs.mcap`
+    **Examples:**
+
+    - Localize along a log: `pilotage record office.svg run.mcap -o beliefs.mcap`
+    - A drive of `navigate`: `pilotage record office.svg run/journal.jsonl -o drive.mcap`
+    - What `localize` wrote: `pilotage record office.svg estimates.jsonl -o beliefs.mcap --scale 20`
     """
     check_outputs([output], force=force)
     if output.suffix != ".mcap":
         raise FileError("the name of the output must end in .mcap", output)
-    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
-        raise typer.BadParameter(f"a scale must be positive, got {scale}", param_hint="--scale")
+    check_positive(scale, "--scale")
     from pilotage.io.bags.belief import Belief, MapFrame
     from pilotage.io.records import is_records, read_records
 
@@ -88,9 +90,10 @@ def record(
 
 def scale_of(sketch: "SchematicMap", given: float | None, estimated: Sequence[float]) -> float:
     """Choose the scale of the frame `map` [drawing units per metre]."""
-    if given is not None:
-        return given
-    return 1.0 / sketch.metres_per_unit if sketch.metres_per_unit else float(estimated[-1])
+    from pilotage.io.bags.belief import known_scale
+
+    known = known_scale(sketch, given)
+    return float(estimated[-1]) if known is None else known
 
 
 def write(

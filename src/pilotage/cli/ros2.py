@@ -9,11 +9,13 @@ import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.exits import signals_held
+from pilotage.cli.options import Scale, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import finite_numbers, parse_pose
 from pilotage.cli.terminal import busy, say
 
 if TYPE_CHECKING:
     from pilotage.config import Settings
+    from pilotage.maps import SchematicMap
     from pilotage.ros.robot import LiveRobot
     from pilotage.ros.session import Session
 
@@ -46,10 +48,8 @@ def ros2(
         float | None,
         typer.Option(metavar="M/S2", help="Deceleration to rely on [m/s2]; needed to drive."),
     ] = None,
-    start: Annotated[
-        str | None, typer.Option(metavar="X,Y,HEADING_DEG", help="Where the robot starts on the drawing.")
-    ] = None,
-    scale: Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")] = None,
+    start: StartPose = None,
+    scale: Scale = None,
     domain: Annotated[
         int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")
     ] = 0,
@@ -64,8 +64,8 @@ def ros2(
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    settings: SettingsFile = None,
+    seed: Seed = 0,
 ) -> None:
     """Localize a live robot of ROS 2 on a drawing, and drive it if that is wanted.
 
@@ -76,24 +76,34 @@ def ros2(
 
     **Examples:**
 
-    - `pilotage ros2 office.svg --localize-only`
+    - Stand in for AMCL: `pilotage ros2 office.svg --localize-only`
+    - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
+    - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
     limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
     check(limits, drive=drive, localize_only=localize_only, goal=goal)
+    check_positive(scale, "--scale")
     from pilotage.ros.node import Node
     from pilotage.ros.robot import LiveRobot, Topics
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
     session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale)
-    topics = Topics(scan_topic, odometry_topic, command_topic, stamped, drive, localize_only)
-    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
+    topics = Topics(
+        scan_topic,
+        odometry_topic,
+        command_topic,
+        stamped=stamped,
+        drives=drive,
+        localizes_only=localize_only,
+    )
     if goal is not None:
         numbers = finite_numbers(goal)
         refusal = session.set_goal((numbers[0], numbers[1]) if len(numbers) == 2 else goal)
         if refusal:
             raise typer.BadParameter(refusal, param_hint="--goal")
+    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
     with standing_at_the_end(robot):
         spin(robot, ends=goal is not None)
@@ -102,8 +112,7 @@ def ros2(
 def check(limits: dict[str, float | None], *, drive: bool, localize_only: bool, goal: str | None) -> None:
     """Reject options that contradict each other, and a drive by guessed limits."""
     for option, value in limits.items():
-        if value is not None and not 0.0 < value < float("inf"):
-            raise typer.BadParameter(f"it must be positive, got {value}", param_hint=option)
+        check_positive(value, option)
         if drive and value is None:
             raise typer.BadParameter("it must be given to drive", param_hint=option)
     if localize_only and (drive or goal is not None):
@@ -126,7 +135,7 @@ def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Sett
 
 
 def open_session(
-    sketch: object,
+    sketch: "SchematicMap",
     settings: "Settings",
     seed: int,
     start: tuple[float, float, float] | None,
@@ -134,11 +143,10 @@ def open_session(
 ) -> "Session":
     """Prepare the drawing, and compile what a step needs before the robot waits for it."""
     from pilotage.errors import FileError
-    from pilotage.maps import SchematicMap, build_atlas
+    from pilotage.maps import build_atlas
     from pilotage.ros.session import Session
     from pilotage.ros.warm_up import warm_up
 
-    assert isinstance(sketch, SchematicMap)
     with busy("Reading the drawing"), signals_held():
         try:
             atlas = build_atlas(sketch, settings.localizer.atlas)

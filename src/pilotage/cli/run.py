@@ -1,4 +1,4 @@
-"""Run a localizer over a log, and tell how it went: what `localize` and `demo` share."""
+"""Run a localizer over a log, and tell how it went: what `localize` and `record` share."""
 
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -14,7 +14,6 @@ from pilotage.cli.trip import Trip
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.geometry import Array
     from pilotage.localization import Estimate, Localizer
     from pilotage.maps import SchematicMap
     from pilotage.perception import Reading
@@ -49,7 +48,8 @@ def read_stretch(
         say(content.complaint)
     readings = content.readings[first:last]
     if not readings:
-        raise FileError(f"the log holds {len(content)} scans, none of them from {first} to {last}", log)
+        until = "on" if last is None else f"to {last}"
+        raise FileError(f"the log holds {len(content)} scans, none of them from {first} {until}", log)
     return readings
 
 
@@ -105,7 +105,6 @@ def draw(
     path: Path,
     *,
     title: str,
-    truth: "Array | None" = None,
 ) -> None:
     """Draw the path, and the local map as it is at the end."""
     from pilotage.figures.path import path_figure
@@ -114,4 +113,4 @@ def draw(
     matcher = localizer.scan_matcher
     base_from_odom = matcher.odom_from_base.inverse()
     local_map = [shape.polyline.moved(base_from_odom) for shape in matcher.local_map.shapes]
-    save(path_figure(sketch, estimates, local_map=local_map, truth=truth, title=title), path)
+    save(path_figure(sketch, estimates, local_map=local_map, title=title), path)

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
+from pilotage.cli.options import Force, SettingsFile
 from pilotage.cli.terminal import check_outputs, say
 
 SHARE = 0.0025
@@ -31,8 +32,8 @@ def simplify(
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
-    settings: Annotated[Path | None, typer.Option(help="Settings to change (TOML).")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that are there.")] = False,
+    settings: SettingsFile = None,
+    force: Force = False,
 ) -> None:
     """Simplify a drawing by discrete curve evolution (Wolter 2001, section 2.2; figure 1).
 

@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from pilotage.cli.options import Seed, check_positive
 from pilotage.cli.terminal import say
 from pilotage.errors import FileError, PilotageError
 
@@ -36,20 +37,22 @@ def which(
     *,
     travel: Annotated[float, typer.Option(metavar="M", help="Metres of each log to look at.")] = TRAVEL,
     jobs: Annotated[int, typer.Option(min=1, help="Processes to use.")] = 2,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")] = 0,
+    seed: Seed = 0,
 ) -> None:
     """Rank drawings by how well they explain a log.
 
-    Each log is localized on each drawing. A line a drawing, the best first: the logarithm of
-    its evidence over that of any building, the place where the robot would be at the end,
-    the probability of that, and the file.
+    Each log is localized on each drawing. A line a drawing, the best first: the log, the rank, the logarithm
+    of the drawing's evidence over that of any building, the probability of the place where the robot would be
+    at the end, that place, and the drawing.
 
-    **Example:** `pilotage which floors/*.svg run.mcap`
+    **Examples:**
+
+    - `pilotage which floor1.svg floor2.pdf run.log.gz`
+    - `pilotage which floors/*.svg monday.mcap tuesday.mcap --travel 80 --jobs 8`
     """
     from pilotage.io.logs import is_log
 
-    if not travel > 0.0 or not math.isfinite(travel):
-        raise typer.BadParameter(f"it must be positive, got {travel}", param_hint="--travel")
+    check_positive(travel, "--travel")
     logs = [path for path in files if is_log(path)]
     drawings = [path for path in files if path not in logs]
     if not (logs and drawings):

@@ -50,15 +50,15 @@ def find_scale(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
     if sketch.metres_per_unit is None:
         return
     size, door = (length * sketch.metres_per_unit for length in (graph.diameter, door_width(graph)))
-    for what, length, (low, high) in (
-        ("the building is", size, BUILDINGS_M),
-        ("a door is", door, DOORS_M),
+    for words, length, (low, high), is_known in (
+        (f"the building is {size:.3g} m long", size, BUILDINGS_M, True),
+        (f"a door is {door:.3g} m wide", door, DOORS_M, bool(graph.gateways)),
     ):
-        if not low <= length <= high and (what != "a door is" or graph.gateways):
+        if is_known and not low <= length <= high:
             yield Finding(
                 "absurd-scale",
                 Severity.NOTE,
-                f"by the units of the file {what} {length:.3g} m {'wide' if 'door' in what else 'long'}",
+                f"by the units of the file {words}",
                 "the scale is found from the laser anyway; --scale tells it if you know it",
             )
             return

@@ -7,7 +7,7 @@ from pathlib import Path
 from pilotage.errors import FileError
 from pilotage.io.carmen import KNOWN_MESSAGES, BrokenLine, read_carmen
 from pilotage.io.files import read_bytes
-from pilotage.perception import Odometry, Reading
+from pilotage.perception import Reading
 
 SNIFFED = 1 << 20
 """Bytes of a text in which a log shows itself."""
@@ -21,7 +21,6 @@ class Log:
     """
 
     readings: Sequence[Reading]
-    odometry: tuple[Odometry, ...]
     broken_lines: tuple[BrokenLine, ...] = ()
     remarks: tuple[str, ...] = ()  # on what is odd about a bag, and what was assumed
 
@@ -64,7 +63,7 @@ def open_log(path: Path | str, *, scan_topic: str | None = None, odometry_topic:
 
     if is_bag(Path(path)):
         bag = read_bag(Path(path), scan_topic, odometry_topic)
-        return Log(bag.readings, bag.odometry, remarks=bag.remarks)
+        return Log(bag.readings, remarks=bag.remarks)
     for topic in (scan_topic, odometry_topic):
         if topic is not None:
             raise FileError(f"only bags have topics, {topic} cannot be chosen", path)
@@ -81,12 +80,11 @@ def read_text_log(path: Path | str) -> Log:
     lines = content.decode("ascii", errors="replace").splitlines()
     if any(is_breezy(line) for line in lines[:3]):
         breezy = read_breezy(lines)
-        odometry = tuple(reading.odometry for reading in breezy.readings)
-        return Log(breezy.readings, odometry, breezy.broken_lines)
+        return Log(breezy.readings, breezy.broken_lines)
     log = read_carmen(lines)
     if not log.recognized:
         raise FileError("the file is no laser log: no bag of ROS, no CARMEN or BreezySLAM text", path)
     if not log.readings:
         broken = f"; {log.broken_lines[0]}" if log.broken_lines else ""
         raise FileError(f"the log holds no scan that can be read{broken}", path)
-    return Log(log.readings, log.odometry, log.broken_lines)
+    return Log(log.readings, log.broken_lines)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cached_property
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from pilotage.maps import Atlas, FileAxes
 
 RADIUS = 2.0
 """[m] Particles within this distance of the densest point are one hypothesis."""
-BLOCK = 1.0
+DENSITY_BLOCK = 1.0
 """[m] The densest point is sought over three by three blocks of this size."""
 MAX_HYPOTHESES = 5
 """Number of hypotheses that are told, at most."""
@@ -63,7 +64,7 @@ class PoseHypothesis:
 
 @dataclass(frozen=True)
 class Estimate:
-    """Where the robot is on the drawing; `x`, `y` in the units and axes of its file."""
+    """Where the robot is on the drawing."""
 
     stamp: float  # [s]
     status: Status
@@ -71,10 +72,6 @@ class Estimate:
     cell_probability: float  # [0..1] that the robot is in the cell of the first hypothesis, anywhere in it
     fit: float  # [0..1] share of what was seen over the last metres that shows the drawn walls
     place: str  # the label of the cell if it has one, else its id
-    x: float  # [drawing units]
-    y: float  # [drawing units]
-    heading: float  # [rad] counter-clockwise on the page from its x axis
-    scale: float  # [drawing units per metre]
     file_axes: FileAxes = field(default_factory=FileAxes)  # of the drawing
 
     @property
@@ -92,6 +89,34 @@ class Estimate:
         """Local affine map of the first hypothesis."""
         return self.hypotheses[0].sketch_from_base
 
+    @cached_property
+    def pose(self) -> Pose2:
+        """Pose of the first hypothesis [drawing units, rad] in the axes of the drawing's file.
+
+        The heading is counter-clockwise on the page from its x axis.
+        """
+        return self.file_axes.pose_from_sketch(self.sketch_from_base.pose)
+
+    @property
+    def x(self) -> float:
+        """Position in the axes of the drawing's file [drawing units]."""
+        return self.pose.x
+
+    @property
+    def y(self) -> float:
+        """Position in the axes of the drawing's file [drawing units]."""
+        return self.pose.y
+
+    @property
+    def heading(self) -> float:
+        """Heading counter-clockwise on the page from its x axis [rad]."""
+        return self.pose.theta
+
+    @property
+    def scale(self) -> float:
+        """Drawing units per metre at the first hypothesis."""
+        return self.sketch_from_base.scale
+
     @property
     def position_std(self) -> float:
         """Spread of the first hypothesis [m]."""
@@ -105,16 +130,8 @@ class Estimate:
     def moved(self, motion: Pose2, atlas: Atlas | None = None) -> "Estimate":
         """Carry the estimate along by a motion in the robot's frame; an atlas names the cell there."""
         hypotheses = tuple(one.moved(motion, atlas) for one in self.hypotheses)
-        pose = self.file_axes.pose_from_sketch(hypotheses[0].sketch_from_base.pose)
         place = self.place if atlas is None else atlas.place_name(hypotheses[0].cell_id)
-        return replace(
-            self,
-            hypotheses=hypotheses,
-            place=place,
-            x=pose.x,
-            y=pose.y,
-            heading=pose.theta,
-        )
+        return replace(self, hypotheses=hypotheses, place=place)
 
 
 def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: Atlas) -> Estimate:
@@ -125,7 +142,6 @@ def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: At
     particles, null = tracks.particles, math.exp(tracks.log_null)
     hypotheses = calibrated(find_hypotheses(particles, atlas))
     first = hypotheses[0]
-    pose = atlas.sketch.file_axes.pose_from_sketch(first.sketch_from_base.pose)
     inside = atlas.are_in((first.cell_id,), particles.states[:2].T) if first.cell_id else np.zeros(0, bool)
     in_cell = math.exp(particles.log_mass) * float(particles.shares[inside].sum()) if inside.any() else 0.0
     status = Status.LOCATED if first.probability >= MORE_PROBABLE_THAN_NOT else Status.LOST
@@ -138,10 +154,6 @@ def summarize(tracks: Tracks, fit: float, stamp: float, travel: float, atlas: At
         cell_probability=max(calibrate(in_cell), first.probability),
         fit=fit,
         place=atlas.place_name(first.cell_id),
-        x=pose.x,
-        y=pose.y,
-        heading=pose.theta,
-        scale=first.sketch_from_base.scale,
         file_axes=atlas.sketch.file_axes,
     )
 
@@ -189,7 +201,7 @@ def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array,
     """Find the middle of the three by three blocks with the largest weight, and the scale there."""
     scale = math.exp(float(weighted_sum(particles.states[LOG_SCALE], weights)) / float(weights.sum()))
     table = atlas.range_table
-    size = BLOCK * scale
+    size = DENSITY_BLOCK * scale
     low = np.array(table.corner) - size
     high = np.array([table.columns, table.rows]) * table.cell_size + 2.0 * size
     cells = np.floor(np.clip((particles.states[:2].T - low), 0.0, high) / size).astype(np.int64) + 1

@@ -126,11 +126,13 @@ class Localizer:
         motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
         if first or self.settings.is_keyframe_due(motion):
             self._add_keyframe(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
+            self._estimate = self._keyframe_estimate
             motion = Pose2.identity()
+        else:
+            assert self._keyframe_estimate is not None
+            self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
         self._motion = motion
-        assert self._keyframe_estimate is not None
-        self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
-        return self._estimate
+        return self.estimate
 
     def _add_keyframe(self, scan: SparseScan, corners: Corners, motion: Pose2, stamp: float) -> None:
         """Propagate and reweight all tracks, let new ones be born, and sum up."""
@@ -152,7 +154,6 @@ class Localizer:
         share = 0.0 if is_first else self._search_effort()
         if share > 0.0:
             particles = join([particles, self._births(share)])
-            particles, log_null, _ = normalized(particles, log_null)
         self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
         self._keyframe_estimate = summarize(
             self.tracks, self._fit(scan), stamp, self._window[-1].travel, self.atlas

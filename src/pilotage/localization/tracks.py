@@ -106,7 +106,10 @@ def leave(particles: Particles, log_null: float, probability: float) -> tuple[Pa
 def cluster(
     particles: Particles, log_null: float, atlas: Atlas, settings: TrackSettings, rng: np.random.Generator
 ) -> Tracks:
-    """Split particles into tracks, prune the improbable, and give each as many particles as it needs."""
+    """Split particles into tracks, prune the improbable, and give each as many particles as it needs.
+
+    The masses that come in need not sum to 1; those of the tracks do.
+    """
     if len(particles) == 0 or not particles.log_mass > -math.inf:
         return Tracks((), log_null)
     keys, inverse = np.unique(_block_keys(particles, atlas), return_inverse=True)

@@ -4,6 +4,8 @@ All that is published bears the stamp of the scan that it was made of, so that s
 """
 
 import json
+import math
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,8 +23,10 @@ from pilotage.ros.sensing import NotReadyError, Sensing
 from pilotage.ros.session import STILL, Goal, Session, Told
 from pilotage.ros.watchdog import NO_SCAN, Watchdog
 
-TF_TYPE = "tf2_msgs/msg/TFMessage"
-POSE_TYPE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+TF_TYPE, POSE_TYPE, PATH_TYPE = TYPES["/tf"], TYPES["/pilotage/pose"], TYPES["/pilotage/path"]
+STRING_TYPE = "std_msgs/msg/String"
+NUMBER = re.compile(r"[+-]?\d+(\.\d+)?")
+"""What may differ between two tellings of one reason to stand."""
 STANDING_EVERY = 0.1
 """[s] between two commands to stand while something is wrong."""
 ROUTE_EVERY = 0.5
@@ -68,7 +72,6 @@ class LiveRobot:
         self._wire, self.session, self._topics, self._say, self._clock = wire, session, topics, say, clock
         self.sensing, self.watchdog = Sensing(), Watchdog()
         self.told: Told | None = None
-        self.command = STILL  # the last one, sent or not
         self.is_over = False  # a drive has ended
         latched = Quality(LATCHED_DEPTH, reliable=True, latched=True)
         self._scans = wire.subscribe(topics.scan, SCAN_TYPE, Quality(1))
@@ -79,7 +82,7 @@ class LiveRobot:
         self._goal_poses = wire.subscribe(
             "goal_pose", "geometry_msgs/msg/PoseStamped", Quality(1, reliable=True)
         )
-        self._goal_names = wire.subscribe("pilotage/goal", "std_msgs/msg/String", Quality(1, reliable=True))
+        self._goal_names = wire.subscribe("pilotage/goal", STRING_TYPE, Quality(1, reliable=True))
         self._out = self._advertise()
         self._frame_told: object = None
         self._stood = self._route_told = -np.inf
@@ -93,8 +96,8 @@ class LiveRobot:
             "amcl_pose": wire.advertise("amcl_pose", POSE_TYPE, latched=True),
             "diagnostics": wire.advertise("/diagnostics", TYPES["/diagnostics"]),
             "hypotheses": wire.advertise("pilotage/hypotheses", TYPES["/pilotage/hypotheses"]),
-            "status": wire.advertise("pilotage/status", "std_msgs/msg/String"),
-            "route": wire.advertise("pilotage/route", "nav_msgs/msg/Path"),
+            "status": wire.advertise("pilotage/status", STRING_TYPE),
+            "route": wire.advertise("pilotage/route", PATH_TYPE),
             "map": wire.advertise("map", TYPES["/map"], latched=True),
             "drawing": wire.advertise("pilotage/drawing", TYPES["/pilotage/drawing"], latched=True),
             "cells": wire.advertise("pilotage/cells", TYPES["/pilotage/cells"], latched=True),
@@ -156,7 +159,7 @@ class LiveRobot:
 
     def _stand(self, reason: str, stamp: float) -> None:
         """Send a command to stand, again and again."""
-        kind = reason.rstrip("0123456789. s")
+        kind = NUMBER.sub("", reason)
         if kind != self._reason:
             self._say(f"standing: {reason}")
             self._reason = kind
@@ -167,7 +170,6 @@ class LiveRobot:
 
     def _send_command(self, command: Twist, stamp: float) -> None:
         """Send a command, if we may drive."""
-        self.command = command
         if "command" not in self._out:
             return
         message = outgoing.twist_message(command)
@@ -229,4 +231,4 @@ def planar(pose: Any) -> Pose2:  # noqa: ANN401  # made at run time
     """Return a geometry_msgs/Pose as a pose of the plane."""
     turn = pose.orientation
     theta = heading(turn.x, turn.y, turn.z, turn.w)
-    return Pose2(pose.position.x, pose.position.y, theta if theta == theta else 0.0)  # noqa: PLR0124  # nan
+    return Pose2(pose.position.x, pose.position.y, 0.0 if math.isnan(theta) else theta)

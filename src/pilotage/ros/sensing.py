@@ -11,14 +11,11 @@ from pilotage.geometry import Pose2
 from pilotage.io.bags.frames import Transform, find_mount, frame_name, heading, seconds, transforms_in
 from pilotage.io.bags.reader import DEFAULT_BASE, ODOMETRY_FRAME
 from pilotage.io.bags.scans import laser_scan
-from pilotage.io.bags.stamps import interpolated, pose_of
+from pilotage.io.bags.stamps import CLOCK_JUMP, interpolated, pose_of
 from pilotage.perception import Odometry, Reading
 
 STALE = 0.3
 """[s] Odometry that is older than a scan by this does not tell where the scan was made."""
-
-CLOCK_JUMP = 1.0
-"""[s] A stamp that is so much earlier than the last one means that the clock was set back."""
 
 REMEMBERED = 200
 """Readings of odometry that are kept, to find that of a scan's moment."""
@@ -94,16 +91,17 @@ class Sensing:
         return pose_of(poses[0])
 
     def _carried_on(self, ahead: float) -> Pose2:
-        """Go on from the last odometry as fast as it went."""
+        """Go on from the last odometry as fast as it went, for `ahead` [s]."""
         last = self._odometry[-1]
         pose = Pose2(*last[1:])
         if len(self._odometry) < 2:
             return pose
         before = self._odometry[-2]
-        motion = Pose2(*before[1:]).inverse() @ pose
-        share = ahead / (last[0] - before[0])
-        if share * (last[0] - before[0]) > STALE or last[0] - before[0] > STALE:
+        between = last[0] - before[0]
+        if between > STALE:
             return pose
+        motion = Pose2(*before[1:]).inverse() @ pose
+        share = ahead / between
         return pose @ Pose2(share * motion.x, share * motion.y, share * motion.theta)
 
     def _remember(self, stamp: float, x: float, y: float, theta: float) -> None:

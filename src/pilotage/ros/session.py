@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Twist
-from pilotage.io.bags.belief import Belief, MapFrame
+from pilotage.io.bags.belief import Belief, MapFrame, known_scale
 from pilotage.localization import Estimate, Localizer, LocalizerSettings
 from pilotage.maps import Atlas
 from pilotage.navigation import Navigator, NavigatorSettings, Step
@@ -50,8 +50,8 @@ class Session:
         self.atlas = self._localizer.atlas
         self._navigator: Navigator | None = None
         self._reckoning = DeadReckoning(self._localizer)
-        known = scale or (1.0 / atlas.sketch.metres_per_unit if atlas.sketch.metres_per_unit else None)
-        self.frame = MapFrame(atlas.sketch, known or math.exp(self.atlas.log_scale))
+        known = known_scale(atlas.sketch, scale)
+        self.frame = MapFrame(atlas.sketch, math.exp(self.atlas.log_scale) if known is None else known)
         self._is_settled = known is not None
         self._shift, self._last_stamp = 0.0, -math.inf  # [s] so that time never runs backwards in here
         self.goal: Goal | None = None

@@ -1,6 +1,6 @@
 """When a robot must stand: what it knows of its surroundings is too old, or not to be trusted."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 NO_SCAN = 0.3
 """[s] A robot that has not heard a scan for so long stands."""
@@ -16,14 +16,13 @@ class Watchdog:
     heard: float | None = None  # when the last scan came
     stamp: float | None = None  # what it was stamped
     trouble: str = ""  # of the last scan
-    limits: tuple[float, float] = field(default=(NO_SCAN, CLOCK_JUMP))
 
     def hear(self, now: float, stamp: float, trouble: str = "") -> None:
         """Take note of a scan, and of what is wrong with it."""
         self.trouble = trouble
         if self.heard is not None and self.stamp is not None:
             passed, stamped = now - self.heard, stamp - self.stamp
-            if stamped <= -self.limits[1] or stamped - passed > self.limits[1]:
+            if stamped <= -CLOCK_JUMP or stamped - passed > CLOCK_JUMP:
                 self.trouble = f"the clock jumped by {stamped - passed:+.1f} s"
         self.heard, self.stamp = now, stamp
 
@@ -34,4 +33,4 @@ class Watchdog:
         if self.trouble:
             return self.trouble
         silence = now - self.heard
-        return f"no scan for {silence:.1f} s" if silence > self.limits[0] else ""
+        return f"no scan for {silence:.1f} s" if silence > NO_SCAN else ""

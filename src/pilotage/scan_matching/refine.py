@@ -170,14 +170,15 @@ def _search(samples: Samples, local_map: LocalMap, prior: MotionPrior, window: t
 
 def _refine(samples: Samples, local_map: LocalMap, prior: MotionPrior, starts: Array) -> list[Fit]:
     """Refine each start, point to segment."""
+    mean, information = prior.pose, prior.information * SIGMA**2
     return [
         Fit(
             *kernels.point_to_segment.refine_pose(
                 *samples,
                 local_map.segment_field,
                 start,
-                prior.pose,
-                prior.information * SIGMA**2,
+                mean,
+                information,
                 ROBUST_SCALE * SIGMA**2,
                 KERNEL_SCALES,
                 MIN_COSINE,

@@ -2,6 +2,8 @@
 
 register(shapes, local_map, prior) -> Registration
     One scan, as the shapes that `perceive` returned, near the pose that odometry tells.
+find_unmatched(shapes, local_map, odom_from_base) -> indices
+    Which of them the map does not hold yet, at the pose that was found.
 """
 
 from enum import Enum
@@ -38,12 +40,11 @@ class Method(Enum):
 
 
 class Registration(NamedTuple):
-    """Where a scan was taken in the frame of the local map, and what it shows that the map does not."""
+    """Where a scan was taken in the frame of the local map, and how well it fits there."""
 
     odom_from_base: Pose2
     fit: Fit | None  # None if there was nothing to compare, and the pose is that of the prior
     inlier_share: float  # [0..1] share of the length of all shapes that lies on the local map
-    unmatched: tuple[int, ...]  # indices of the shapes that the map does not hold yet
 
 
 def register(
@@ -52,30 +53,26 @@ def register(
     prior: MotionPrior,
     method: Method = Method.SEGMENTS,
 ) -> Registration:
-    """Find where a scan was taken, from its shapes, the map and what odometry tells (3.3, steps 1 to 3).
+    """Find where a scan was taken, from its shapes, the map and what odometry tells (3.3, steps 1 and 3).
 
     With an empty map, or without shapes, the pose is that of the prior.
     """
     samples = take_samples(shapes)
     if not samples.weights.any() or len(local_map.segments) == 0:
-        return Registration(prior.odom_from_base, None, 0.0, tuple(range(len(shapes))))
+        return Registration(prior.odom_from_base, None, 0.0)
     if method is Method.SHAPES:  # the paper's own pose: sections 3.2 and 3.3, steps 2 and 3
         fit = fit_at(samples, local_map, find_pose_by_shape(shapes, local_map.shapes, prior.odom_from_base))
     else:
         fit = find_best_fit(samples, local_map, prior)  # section 3.3, step 3, by decision 0006
-    odom_from_base = Pose2(*fit.pose.tolist())
-    return Registration(
-        odom_from_base,
-        fit,
-        fit.inlier_weight / float(samples.weights.sum()),
-        find_unmatched(shapes, local_map, odom_from_base),  # section 3.3, step 2, at the corrected pose
-    )
+    return Registration(Pose2(*fit.pose.tolist()), fit, fit.inlier_weight / float(samples.weights.sum()))
 
 
 def find_unmatched(
     shapes: tuple[PartialShape, ...], local_map: LocalMap, odom_from_base: Pose2
 ) -> tuple[int, ...]:
-    """List the perceived shapes that shapes of the map do not cover (section 3.3, step 2)."""
+    """Return the indices of the perceived shapes that shapes of the map do not cover (3.3, step 2)."""
+    if not shapes or len(local_map.segments) == 0:
+        return tuple(range(len(shapes)))
     known = local_map.segment_field
     segments = segments_of([shape.polyline for shape in shapes])
     points, directions, weights, owners = kernels.segment_sampling.sample_segments(segments, SAMPLE_STEP)

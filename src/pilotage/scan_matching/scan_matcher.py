@@ -7,7 +7,7 @@ from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
 from pilotage.scan_matching.local_map import LocalMap
 from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise, reported_motion, update_noise
-from pilotage.scan_matching.register import Method, Registration, register
+from pilotage.scan_matching.register import Method, Registration, find_unmatched, register
 from pilotage.shape import PartialShape
 
 LONGEST_INERTIA = 1.0
@@ -73,14 +73,15 @@ class ScanMatcher:
         settings = self.settings
         shapes = perceive(scan, settings.perception)  # sections 2.1, 2.2
         prior = self._motion_prior(odometry)
-        registration = register(shapes, self.local_map, prior, settings.method)  # 3.3, steps 1 to 3
+        registration = register(shapes, self.local_map, prior, settings.method)  # 3.3, steps 1 and 3
         odom_from_base = registration.odom_from_base
         last_from_base = self.odom_from_base.inverse() @ odom_from_base if registration.fit else prior.motion
         traveled = self._traveled + math.hypot(last_from_base.x, last_from_base.y)
         noise = self._updated_noise(prior, registration) if odometry.is_known else self.noise
         local_map, odom_from_keyframe = self.local_map, self._odom_from_keyframe
         if self._is_keyframe(odom_from_base):
-            new = tuple(shapes[index].moved(odom_from_base) for index in registration.unmatched)
+            unmatched = find_unmatched(shapes, local_map, odom_from_base)  # 3.3, step 2, at that pose
+            new = tuple(shapes[index].moved(odom_from_base) for index in unmatched)
             local_map = local_map.extended(new, traveled, settings.window)  # 3.3, step 4
             odom_from_keyframe = odom_from_base
 

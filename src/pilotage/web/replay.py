@@ -28,35 +28,36 @@ class ReplayError(PilotageError):
 
 
 class LogSource:
-    """Gives the scans of a log, one after the other."""
+    """Gives the scans of a log, one after the other; a bag is gone through once."""
 
     def __init__(self, path: Path) -> None:
-        self._readings = open_log(path).readings
-        self._next = 0
+        self._coming = iter(open_log(path))
+        self._next: Reading | None = next(self._coming)  # a log has one scan at least
+        self._first = self._last = self._next.scan.stamp  # [s] of the last one read
 
     @property
     def is_over(self) -> bool:
         """Whether all scans were read."""
-        return self._next >= len(self._readings)
+        return self._next is None
 
     @property
     def stamp(self) -> float:
         """The time of the last scan that was read, since the first one [s]."""
-        return self._at(self._next - 1) - self._at(0)
+        return self._last - self._first
 
     @property
     def time_step(self) -> float:
-        """The time until the next scan [s]."""
-        return min(max(self._at(self._next) - self._at(self._next - 1), 0.0), LONGEST_PAUSE)
+        """The time until the next scan [s]; 0 before the first and after the last."""
+        ahead = 0.0 if self._next is None else self._next.scan.stamp - self._last
+        return min(max(ahead, 0.0), LONGEST_PAUSE)
 
     def read(self) -> Reading:
-        """Read the next scan."""
-        self._next += 1
-        return self._readings[self._next - 1]
-
-    def _at(self, number: int) -> float:
-        """Return the stamp of a scan; of one before the first or after the last that of the nearest [s]."""
-        return self._readings[min(max(number, 0), len(self._readings) - 1)].scan.stamp
+        """Read the next scan; ValueError after the last."""
+        if self._next is None:
+            raise ValueError("the log has ended, there is no next scan")
+        reading, self._next = self._next, next(self._coming, None)
+        self._last = reading.scan.stamp
+        return reading
 
 
 @dataclass(slots=True)

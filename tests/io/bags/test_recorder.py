@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,14 @@ from benchmarks.lib.bag_making import decoded
 from hypothesis import given
 from hypothesis import strategies as st
 
+from knowing import estimate_at
 from pilotage import Pose2, Reading, open_log, open_map, worlds
+from pilotage.geometry import Homography
 from pilotage.io.bags import outgoing
 from pilotage.io.bags.belief import Belief, MapFrame, Place, covariance_of
 from pilotage.io.bags.recorder import TYPES, recording
+from pilotage.io.estimates import estimate_record
+from pilotage.maps import FileAxes
 from pilotage.maps.cells.decomposition import decompose
 from pilotage.maps.cells.free_space import DecompositionSettings
 
@@ -126,6 +131,18 @@ def test_a_line_of_a_journal_becomes_the_same_belief(frame):
     assert Pose2(5.0, -3.0, 1.0) == belief.pose  # y of SVG points down
     assert "lost" == belief.values["status"]
     assert 1 == outgoing.diagnostics(belief).status[0].level
+
+
+def test_places_on_a_photo_are_the_same_from_an_estimate_and_from_its_record(frame):
+    tilted = Homography.from_matrix(np.array([[1.0, 0.1, 3.0], [-0.2, 0.9, 5.0], [4e-4, -3e-4, 1.0]]))
+    sketch = replace(frame.sketch, photo_from_sketch=tilted)
+    axes = FileAxes(sketch.y_down, tilted)
+    estimate = replace(estimate_at(100.0, -60.0, 1.0, scale=20.0), file_axes=axes)
+    told = Belief.of_estimate(estimate, MapFrame(sketch, SCALE)).pose
+    read = Belief.of_record(estimate_record(estimate, sketch), MapFrame(sketch, SCALE)).pose
+
+    assert pytest.approx((5.0, -3.0, 1.0)) == (told.x, told.y, told.theta)
+    assert pytest.approx((told.x, told.y, told.theta), abs=1e-6) == (read.x, read.y, read.theta)
 
 
 def test_the_layout_shows_topics_that_are_recorded():

@@ -30,15 +30,27 @@ class MapFrame:
         """Carry points (n, 2) from the sketch [drawing units] to the frame [m]."""
         return points / self.scale
 
+    def pose_from_sketch(self, pose: Pose2) -> Pose2:
+        """Carry a pose of the sketch [drawing units] to the frame [m]."""
+        return Pose2(pose.x / self.scale, pose.y / self.scale, pose.theta)
+
     def from_file(self, x: float, y: float, heading: float) -> Pose2:
         """Carry a pose from the axes of the drawing's file to the frame."""
-        east, north = self.from_sketch(self.sketch.sketch_from_file(np.array([[x, y]])))[0].tolist()
-        return Pose2(east, north, heading)
+        pose = self.sketch.file_axes.pose_to_sketch(Pose2(x, y, heading))
+        return self.pose_from_sketch(pose)
 
     def to_file(self, pose: Pose2) -> tuple[float, float, float]:
         """Carry a pose from the frame to the axes of the drawing's file."""
-        x, y = self.sketch.file_from_sketch(self.scale * pose.position[np.newaxis])[0].tolist()
-        return x, y, pose.theta
+        on_sketch = Pose2(self.scale * pose.x, self.scale * pose.y, pose.theta)
+        in_file = self.sketch.file_axes.pose_from_sketch(on_sketch)
+        return in_file.x, in_file.y, in_file.theta
+
+
+def known_scale(sketch: SchematicMap, given: float | None) -> float | None:
+    """Return the scale of the frame `map` [drawing units per metre] if it is given, or the file tells it."""
+    if given is not None:
+        return given
+    return 1.0 / sketch.metres_per_unit if sketch.metres_per_unit else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,11 +78,10 @@ class Belief:
     @classmethod
     def of_estimate(cls, estimate: Estimate, frame: MapFrame, stamp: float | None = None) -> "Belief":
         """Take an estimate of the localizer."""
-        places = []
-        for one in estimate.hypotheses:
-            pose = one.sketch_from_base.pose
-            x, y = frame.from_sketch(pose.position[np.newaxis])[0].tolist()
-            places.append(Place(Pose2(x, y, pose.theta), one.probability))
+        places = tuple(
+            Place(frame.pose_from_sketch(one.sketch_from_base.pose), one.probability)
+            for one in estimate.hypotheses
+        )
         values = {
             "status": estimate.status.value,
             "place": estimate.place,
@@ -82,9 +93,7 @@ class Belief:
         }
         local = estimate.position_std * estimate.scale / frame.scale  # [m] of the frame
         axis = np.array(estimate.position_axis) / frame.scale
-        return cls(
-            estimate.stamp if stamp is None else stamp, tuple(places), covariance_of(local, axis), values
-        )
+        return cls(estimate.stamp if stamp is None else stamp, places, covariance_of(local, axis), values)
 
     @classmethod
     def of_record(cls, record: Mapping[str, Any], frame: MapFrame) -> "Belief":

@@ -11,6 +11,7 @@ from pilotage.geometry import Array, Pose2, Twist
 from pilotage.io.bags.belief import Belief, MapFrame
 from pilotage.maps import CellGraph
 from pilotage.perception import LaserScan
+from pilotage.perception.scan import MAX_TRUSTED_RANGE
 
 MAP, ODOM, BASE, LASER = "map", "odom", "base_link", "laser"
 """Frames (REP-105)."""
@@ -229,7 +230,7 @@ def rasterized(
 def scan_message(scan: LaserScan) -> Any:  # noqa: ANN401  # as above
     """Make a LaserScan in the frame `laser`."""
     count = len(scan)
-    limit = scan.range_max if math.isfinite(scan.range_max) else 100.0
+    limit = scan.range_max if math.isfinite(scan.range_max) else MAX_TRUSTED_RANGE
     values = (scan.angle_min, scan.angle_min + (count - 1) * scan.angle_increment, scan.angle_increment)
     return make(
         "sensor_msgs/LaserScan",

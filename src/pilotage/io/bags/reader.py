@@ -51,7 +51,6 @@ class BagLog:
     """What a bag holds for us."""
 
     readings: "BagReadings"
-    odometry: tuple[Odometry, ...]
     remarks: tuple[str, ...]
 
 
@@ -259,10 +258,7 @@ def joined(path: Path, topic: str, recording: Recording, remarks: list[str]) -> 
     mount = mount_of(path, recording, remarks)
     used = np.flatnonzero(usable)
     readings = BagReadings(path, topic, stamps, poses, used, mount, has_odometry)
-    odometry = tuple(
-        Odometry(stamp, pose_of(pose)) for stamp, pose in zip(track.stamps.tolist(), track.poses, strict=True)
-    )
-    return BagLog(readings, odometry, tuple(remarks))
+    return BagLog(readings, tuple(remarks))
 
 
 def mount_of(path: Path, recording: Recording, remarks: list[str]) -> Mount:
