@@ -70,6 +70,10 @@ kitchen = [120, 80.5]
 WC = [[40, 20], [200, 20]]
 """
 
+ESTIMATES = """{"stamp": 0.5, "scale": 20.0, "x": 1, "hypotheses": [{"cell": "c1", "probability": 0.9}]}
+{"stamp": 1.0, "scale": 20.5, "x": 1, "hypotheses": [{"cell": "c2", "probability": 0.8}]}
+"""
+
 CONTENT = b"""0 0 0 rg 0 0 0 RG 2 w 10 10 150 50 re S 60 10 m 60 30 l S 60 40 m 60 60 l S
 q 1 0 0 1 5 5 cm 0.5 g 100 20 10 10 re f Q BT /F1 8 Tf 20 30 Td (Kitchen) Tj ET
 1 0 0 1 0 0 cm 3 4 5 6 7 8 c S"""
@@ -100,6 +104,7 @@ def seeds() -> dict[str, bytes]:
         "run.log.gz": gzip.compress(log().encode(), mtime=0),
         "settings.toml": SETTINGS.encode(),
         "a.svg.toml": HINTS.encode(),
+        "estimates.jsonl": ESTIMATES.encode(),
     }
 
 

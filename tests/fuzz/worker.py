@@ -143,6 +143,7 @@ def read(path: Path) -> None:
     from pilotage.io import open_log, open_world
     from pilotage.io.hints import read_hints
     from pilotage.io.maps import open_drawing
+    from pilotage.io.records import read_records
 
     if path.name.startswith("world"):
         open_world(path)
@@ -152,6 +153,8 @@ def read(path: Path) -> None:
         read_settings(path)
     elif path.suffix == ".toml":
         read_hints(path)
+    elif path.suffix == ".jsonl":
+        read_records(path)
     else:
         drawing = open_drawing(path)
         report(drawing.sketch, drawing.interpretation)
