@@ -25,6 +25,10 @@ const NONE: Drive = {
 
 export type Order = { type: string } & Record<string, unknown>;
 
+function say(line: WebSocket, order: Order): void {
+  if (line.readyState === WebSocket.OPEN) line.send(JSON.stringify({ v: 1, ...order }));
+}
+
 export function useDrive(): {
   drive: Drive | null;
   begin: (order: Order) => void;
@@ -42,7 +46,7 @@ export function useDrive(): {
     const line = new WebSocket(address);
     socket.current?.close();
     socket.current = line;
-    line.onopen = () => line.send(JSON.stringify({ v: 1, ...first }));
+    line.onopen = () => say(line, first);
     line.onmessage = (event) => {
       if (socket.current !== line) return;
       const message = JSON.parse(event.data as string);
@@ -52,6 +56,7 @@ export function useDrive(): {
       }
       if (message.type === "error" && message.fatal) session.current = "";
       setDrive((before) => heard(before ?? NONE, message));
+      if (message.type === "frame") requestAnimationFrame(() => say(line, { type: "seen" }));
     };
     line.onclose = () => {
       if (socket.current !== line) return;
@@ -78,7 +83,7 @@ export function useDrive(): {
     open({ type: "resume", session: id });
   }, [open]);
   const send = useCallback((order: Order) => {
-    if (socket.current?.readyState === WebSocket.OPEN) socket.current.send(JSON.stringify({ v: 1, ...order }));
+    if (socket.current) say(socket.current, order);
   }, []);
   const leave = useCallback(() => {
     session.current = "";
