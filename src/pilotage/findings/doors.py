@@ -31,9 +31,9 @@ def suggest_door(room: shapely.Polygon, others: list[shapely.Polygon], graph: Ce
     Returns None if no other room is near.
     """
     for thickness in np.array(WALLS) * graph.diameter:
-        near = shapely.union_all([shapely.buffer(other, thickness, join_style="mitre") for other in others])
-        shared = shapely.intersection(room.exterior, near)
-        sides = straight_sides(shared)
+        near = shapely.buffer(others, thickness, join_style="mitre")
+        shared = shapely.intersection(room.exterior, near)  # each alone: a door leads to one room
+        sides = np.concatenate([np.empty((0, 2, 2)), *map(straight_sides, shared)])
         if len(sides):
             lengths = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
             side, length = sides[lengths.argmax()], float(lengths.max())
