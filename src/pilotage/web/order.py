@@ -114,8 +114,3 @@ def place(value: object, name: str) -> Place:
         return value.strip()
     x, y = numbers(value, name, (2,))
     return x, y
-
-
-def shown(value: object) -> str:
-    """Write a value as a message shows it."""
-    return repr(value)[:60]
