@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from pilotage.errors import shown
+
 SPEEDS = (1.0, 20.0)
 """How many times as fast as real time a drive may go."""
 LARGEST_SEED = 2**32 - 1
