@@ -15,7 +15,7 @@ from pilotage.geometry import Polyline, Pose2
 from pilotage.localization import Status
 from pilotage.maps import NotEnclosedError, RouteError, SchematicMap, build_atlas
 from pilotage.maps.schematic import Label
-from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome
+from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Tour
 from pilotage.simulation import (
     Door,
     LaserSettings,
@@ -340,3 +340,40 @@ def test_a_robot_that_has_arrived_drives_to_another_goal_if_it_is_told_to():
     assert Outcome.REACHED is instants[-1].step.outcome
     assert KITCHEN == instants[-1].step.estimate.cell_id
     assert 5.0 < instants[-1].scene.world_from_base.x
+
+
+def test_goals_are_visited_in_order_and_the_way_leads_back():
+    tour = Tour(("kitchen", (7.5, 7.5)), returns=True)
+    told = driven(tour, time_limit=60.0)
+    visits = told.steps[-1].visits
+
+    assert [Outcome.REACHED] * 3 == [visit.outcome for visit in visits]
+    assert "3 of 3 goals are reached" == told.reason
+    assert Outcome.REACHED is told.outcome
+    for visit, place in zip(visits, ((8.0, 2.5), (7.5, 7.5), START.position), strict=True):
+        assert GRAPH.cell_at(place) == GRAPH.cell_at(told.positions[told.step_at(visit.stamp)])
+    assert 0.5 > np.hypot(*(told.positions[-1] - START.position))
+    assert 0 == told.collisions
+
+
+def test_a_goal_that_is_not_reached_in_its_time_is_left_out_and_told():
+    told = driven(["kitchen", (2.5, 7.0)], time_limit=3.0)
+
+    assert Outcome.GAVE_UP is told.outcome
+    missed = "the goal was not reached within 3 s"
+    assert told.reason == f"0 of 2 goals are reached; kitchen: {missed}; 2.5,7: {missed}"
+    assert [3, 6] == [round(visit.stamp - told.steps[0].stamp) for visit in told.steps[-1].visits]
+
+
+def test_all_goals_of_a_tour_must_be_on_the_drawing():
+    with pytest.raises(RouteError, match="attic"):
+        Navigator(knowing(), ["kitchen", "attic"])
+    with pytest.raises(ValueError, match="at least one goal"):
+        Navigator(knowing(), [])
+
+
+def test_a_round_is_driven_again_and_again():
+    told = driven(Tour(("kitchen", (2.5, 2.5)), rounds=2), time_limit=60.0)
+
+    assert ["kitchen", (2.5, 2.5)] * 2 == [visit.goal for visit in told.steps[-1].visits]
+    assert Outcome.REACHED is told.outcome

@@ -73,7 +73,7 @@ class BelievedView:
         """Draw the cell, the gateway that is next, and the route."""
         graph = roads.graph
         self.cell.set_path(outline_of(graph.cell(step.estimate.cell_id)))
-        self.route.set_data(*route_ahead(step, roads, self.drive.goal.point).T)
+        self.route.set_data(*route_ahead(step, roads, self.drive.goal_point_at(step)).T)
         gateway = graph.gateway(step.gateway_id).segment if step.gateway_id else np.empty((0, 2))
         self.gateway.set_data(*gateway.T)
 
