@@ -13,7 +13,7 @@ from pilotage.drives import drive
 from pilotage.drives.record import Drive
 from pilotage.geometry import Polyline, Pose2
 from pilotage.localization import Status
-from pilotage.maps import NotEnclosedError, RouteError, SchematicMap, build_atlas
+from pilotage.maps import NotEnclosedError, RouteError, SchematicMap, Zones, build_atlas
 from pilotage.maps.schematic import Label
 from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Tour
 from pilotage.simulation import (
@@ -377,3 +377,39 @@ def test_a_round_is_driven_again_and_again():
 
     assert ["kitchen", (2.5, 2.5)] * 2 == [visit.goal for visit in told.steps[-1].visits]
     assert Outcome.REACHED is told.outcome
+
+
+def square(left, bottom, right, top):
+    return Polyline(np.array([(left, bottom), (right, bottom), (right, top), (left, top)]), closed=True)
+
+
+def zoned(**zones):
+    atlas = replace(ATLAS, sketch=replace(SKETCH, zones=Zones(**zones)))
+    return KnowingLocalizer(atlas, START)
+
+
+def test_a_keep_out_zone_is_driven_around():
+    zone = square(2.0, 2.0, 8.0, 2.9)
+    free, told = driven((9.5, 2.5)), driven((9.5, 3.8), localizer=zoned(keep_out=(zone,)))
+    inside = [all((2.1, 2.1) <= at) and all(at <= (7.9, 2.8)) for at in free.positions]
+
+    assert any(inside)  # without the zone the way leads through it
+    assert has_arrived(told, (9.5, 3.8))
+    assert not any(all((4.0, 2.1) <= at) and all(at <= (7.9, 2.8)) for at in told.positions)
+
+
+def test_in_a_slow_zone_the_robot_drives_at_half_its_speed():
+    fast, told = driven((9.5, 2.5)), driven((9.5, 2.5), localizer=zoned(slow=(square(4.0, 1.0, 9.0, 4.0),)))
+    speeds = [
+        [step.command.linear for step, at in zip(one.steps, one.positions, strict=True) if 5.0 < at[0] < 8.0]
+        for one in (fast, told)
+    ]
+
+    assert has_arrived(told, (9.5, 2.5))
+    assert 0.8 == pytest.approx(max(speeds[0]))
+    assert 0.4 == pytest.approx(max(speeds[1]))
+
+
+def test_a_goal_in_a_keep_out_zone_is_refused():
+    with pytest.raises(RouteError, match="keep-out zone"):
+        Navigator(zoned(keep_out=(square(7.0, 2.0, 9.0, 3.0),)), (8.0, 2.5))

@@ -73,7 +73,10 @@ def set_out(
     planner = navigator.planner
     known = None if start is None else sketch_point(planner.atlas, (start[0], start[1]), "start")
     for place in navigator.tour.goals:
-        check_reachable(planner.graph, find_goal(planner.atlas, place).point, known)
+        target = find_goal(planner.atlas, place).point
+        check_reachable(planner.graph, target, known)
+        if known is not None:
+            planner.roadmap.find(known, target)  # zones may be in the way
     return navigator, put_down(world, world_start, np.random.default_rng(seed), settings.simulator)
 
 

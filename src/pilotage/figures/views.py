@@ -32,7 +32,8 @@ class BelievedView:
 
     def __init__(self, axes: Axes, drive: Drive) -> None:
         self.drive, self.size = drive, drive.sketch.diagonal
-        self.roads = Roadmap(drive.graph, RouteSettings()) if drive.graph is not None else None
+        zones = drive.sketch.zones
+        self.roads = Roadmap(drive.graph, RouteSettings(), zones) if drive.graph is not None else None
         positions = np.array([step.estimate.sketch_from_base.pose.position for step in drive.steps])
         found = find_stretches(drive.steps, positions, JUMP * self.size)
         self.stretches = [one for one in found if one.located]

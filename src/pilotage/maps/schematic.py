@@ -1,12 +1,13 @@
 """A drawing of a building, as a person made it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Homography, Polyline, segments_of
 from pilotage.maps.file_axes import FileAxes
+from pilotage.maps.zones import Zones
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ class SchematicMap:
     contours: bool = False  # whether the strokes are contours of free space, as in filled plans, not of a pen
     solids: tuple[Polyline, ...] = ()  # rings of thick walls, by the even-odd rule
     metres_per_unit: float | None = None  # what the file says of its scale; localization does not use it
+    zones: Zones = field(default_factory=Zones)  # where not to drive, or only in one way
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
 
     def __post_init__(self) -> None:

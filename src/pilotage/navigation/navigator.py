@@ -32,6 +32,9 @@ TURNING = 0.7
 BEHIND = 0.1
 """Obstacles less far ahead than this [m] are taken from the grid: a scanner may not see backwards."""
 
+SLOWLY = 0.5
+"""Share of its fastest speed at which the robot drives in a slow zone."""
+
 SEEING = 0.05
 """Share of beams that return below which a far-seeing scanner counts as blind: it is covered, or broken."""
 
@@ -60,6 +63,7 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
         self.planner = self._first_planner(localizer)
+        self.zones = localizer.atlas.sketch.zones
         self.position = DeadReckoning(localizer)
         self.local_grid = LocalGrid.unknown()
         self.memory: Memory | None = None  # before the first scan
@@ -162,12 +166,22 @@ class Navigator:
             position.turned,
             position.trail,
             self.local_grid,
-            self.local_grid.reachable_set(self.settings.radius),
+            self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
             memory,
             self.planner,
             leg,
             position.localizer.sample,
             self.settings,
+        )
+
+    def _allowed_grid(self, *, knows: bool) -> LocalGrid:
+        """Enter keep-out zones as obstacles where they are believed to be, unless the robot is in one."""
+        zones, sketch_from_base = self.zones, self.position.estimate.sketch_from_base
+        if not (knows and zones.keep_out) or zones.are_kept_out(sketch_from_base.translation[np.newaxis])[0]:
+            return self.local_grid
+        base_from_odom = self.local_grid.odom_from_base.inverse()
+        return self.local_grid.without(
+            lambda points: zones.are_kept_out(sketch_from_base @ (base_from_odom @ points))
         )
 
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
@@ -184,6 +198,8 @@ class Navigator:
         passed = int(np.hypot(path[:, 0], path[:, 1]).argmin())
         remembered = base_from_odom @ self.local_grid.obstacles
         obstacles = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < BEHIND]])
+        if self.zones.is_slow(self.position.estimate.sketch_from_base.translation):
+            steering = replace(steering, speed=SLOWLY * steering.speed)
         command = steer(path[passed:], obstacles, self.settings.radius, steering, twist, sight=scan.range_max)
         waits = command.linear == 0.0 and abs(command.angular) < WAITING
         return command, Behavior.WAIT if waits else plan.behavior
