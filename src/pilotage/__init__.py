@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pilotage.findings import Finding, check
     from pilotage.geometry import Affine2, Pose2, Similarity2, Twist
     from pilotage.io import open_log, open_map, open_world
+    from pilotage.io.state import resume, save_state
     from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
     from pilotage.maps import SchematicMap
     from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Step, Tour
@@ -53,6 +54,8 @@ __all__ = [
     "open_log",
     "open_map",
     "open_world",
+    "resume",
+    "save_state",
 ]
 
 HOMES = {
@@ -62,6 +65,7 @@ HOMES = {
     "findings": ("Finding", "check"),
     "geometry": ("Affine2", "Pose2", "Similarity2", "Twist"),
     "io": ("open_log", "open_map", "open_world"),
+    "io.state": ("resume", "save_state"),
     "localization": ("Estimate", "Localizer", "LocalizerSettings", "PoseHypothesis", "Status"),
     "maps": ("SchematicMap",),
     "navigation": ("Behavior", "Navigator", "NavigatorSettings", "Outcome", "Step", "Tour"),

@@ -14,6 +14,7 @@ DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
         ((*DRIVE, "--braking", "-1"), "it must be positive, got -1.0"),
         (("--localize-only", "--drive"), "must be given to drive"),
         (("--localize-only", "--goal", "kitchen"), "excludes --drive and --goal"),
+        (("--resume", "x.state", "--start", "1,2,3"), "it excludes --start"),
         (("--domain", "900"), "less than or equal to 232"),
     ],
 )
@@ -22,3 +23,13 @@ def test_a_drive_by_guessed_limits_is_refused(pilotage, words, rule):
 
     assert 2 == outcome.code
     assert rule in " ".join(outcome.err.replace("│", " ").split())
+
+
+def test_a_damaged_state_is_refused_and_stays_as_it_is(pilotage, tmp_path):
+    path = tmp_path / "office.state"
+    path.write_text("precious")
+    outcome = pilotage("ros2", worlds.OFFICE.careful, "--resume", path)
+
+    assert 1 == outcome.code
+    assert f"this is no saved state, or it is damaged: {path}" in outcome.err or str(path) in outcome.err
+    assert "precious" == path.read_text()

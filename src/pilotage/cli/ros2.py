@@ -15,6 +15,7 @@ from pilotage.cli.terminal import busy, say
 
 if TYPE_CHECKING:
     from pilotage.config import Settings
+    from pilotage.io.state import SavedState
     from pilotage.maps import SchematicMap
     from pilotage.ros.robot import LiveRobot
     from pilotage.ros.session import Session
@@ -55,6 +56,13 @@ def ros2(
     ] = None,
     start: StartPose = None,
     scale: Scale = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Go on from what was believed at the last stop, if the file is there; save it at the end.",
+        ),
+    ] = None,
     domain: Annotated[
         int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")
     ] = 0,
@@ -85,6 +93,7 @@ def ros2(
     - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
     - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
     - Patrol: `pilotage ros2 office.svg --goal kitchen,hall,store --patrol`
+    - Go on where it stopped: `pilotage ros2 office.svg --resume office.state`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
     limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
@@ -92,12 +101,15 @@ def ros2(
     check_tour(goal, patrol=patrol, returns=returns)
     check_positive(scale, "--scale")
     from pilotage.navigation import Tour
+
+    if resume is not None and start is not None:
+        raise typer.BadParameter("it excludes --start", param_hint="--resume")
     from pilotage.ros.node import Node
     from pilotage.ros.robot import LiveRobot, Topics
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
-    session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale)
+    session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale, resume)
     topics = Topics(
         scan_topic,
         odometry_topic,
@@ -113,7 +125,7 @@ def ros2(
             raise typer.BadParameter(refusal, param_hint="--goal")
     robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
-    with standing_at_the_end(robot):
+    with saving_at_the_end(session, resume), standing_at_the_end(robot):
         spin(robot, ends=goal is not None)
 
 
@@ -150,28 +162,61 @@ def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Sett
     return replace(settings, navigator=navigator)
 
 
-def open_session(
+def open_session(  # noqa: PLR0917  # as the command line has them
     sketch: "SchematicMap",
     settings: "Settings",
     seed: int,
     start: tuple[float, float, float] | None,
     scale: float | None,
+    resume: Path | None,
 ) -> "Session":
     """Prepare the drawing, and compile what a step needs before the robot waits for it."""
     from pilotage.errors import FileError
+    from pilotage.localization.state import OtherDrawingError
     from pilotage.maps import build_atlas
     from pilotage.ros.session import Session
     from pilotage.ros.warm_up import warm_up
 
+    resumed = None if resume is None else saved_state(resume)
     with busy("Reading the drawing"), signals_held():
         try:
             atlas = build_atlas(sketch, settings.localizer.atlas)
             warm_up(atlas, settings)
             return Session(
-                atlas, (settings.localizer, settings.navigator), seed=seed, start=start, scale=scale
+                atlas,
+                (settings.localizer, settings.navigator),
+                seed=seed,
+                start=start,
+                scale=scale,
+                resumed=resumed,
             )
+        except OtherDrawingError as error:
+            raise FileError(str(error), resume or sketch.source) from error
         except ValueError as error:
             raise FileError(str(error), sketch.source) from error
+
+
+def saved_state(path: Path) -> "SavedState | None":
+    """Read what was believed at the last stop; without a file it is the first start."""
+    from pilotage.io.files import check_replaceable
+    from pilotage.io.state import read_state
+
+    check_replaceable(path)
+    if not path.exists():
+        say(f"pilotage: there is no {path} yet, it is written at the end")
+        return None
+    return read_state(path)
+
+
+@contextlib.contextmanager
+def saving_at_the_end(session: "Session", path: Path | None) -> Iterator[None]:
+    """Save what is believed however the block ends, if a file is given and a scan was seen."""
+    try:
+        yield
+    finally:
+        if path is not None and session.has_seen:
+            session.save(path)
+            say(f"pilotage: what is believed is saved in {path}")
 
 
 @contextlib.contextmanager

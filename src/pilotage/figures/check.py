@@ -17,6 +17,7 @@ from pilotage.figures.cells import (
 )
 from pilotage.figures.drawing import draw_strokes
 from pilotage.findings import Finding, MendKind, Report, Severity
+from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 
 SEVERITY_COLOR = {
@@ -102,6 +103,14 @@ def draw_marks(axes: Axes, interpretation: Interpretation) -> None:
                 label=None if meaning.role in seen else meaning.role.value,
             )  # fmt: skip
             seen.add(meaning.role)
+            if meaning.role is Role.ONE_WAY:
+                draw_tip(axes, outline.vertices)
+
+
+def draw_tip(axes: Axes, way: Array) -> None:
+    """Draw the tip of an arrow along points (n, 2), at its last one."""
+    look = {"arrowstyle": "-|>", "color": ROLE_COLOR[Role.ONE_WAY], "mutation_scale": 14.0}
+    axes.annotate("", way[-1], way[-2], arrowprops=look, zorder=9)
 
 
 def draw_findings(axes: Axes, report: Report) -> None:

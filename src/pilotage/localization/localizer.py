@@ -13,6 +13,7 @@ from pilotage.localization.motion_model import propagate
 from pilotage.localization.particles import Particles, join
 from pilotage.localization.prior import Prior, draw_anywhere, draw_near
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan, thin_scan
+from pilotage.localization.state import LocalizerState, fingerprint
 from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
@@ -30,6 +31,8 @@ BIRTH_COUNT = 2_000
 """Particles that a search gives birth to."""
 SETTLED = 0.8
 """Probability from which on a search of the whole drawing is rare and small."""
+FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_rng", "_model")
+"""Attributes of a localizer that are no state: a resumed one is given them, or makes them."""
 SEARCH_EVERY = 2.0
 """[m] between two searches then."""
 SETTLED_PROPOSALS = 0.25
@@ -107,6 +110,39 @@ class Localizer:
         self._searched = 0.0  # [m] of travel at the last search
         self._keyframe_estimate: Estimate | None = None
         self._estimate: Estimate | None = None
+
+    @classmethod
+    def resumed(
+        cls,
+        drawing: SchematicMap | Atlas,
+        state: LocalizerState,
+        settings: LocalizerSettings | None = None,
+        *,
+        scale: float | None = None,
+        stood: bool = False,
+    ) -> "Localizer":
+        """Go on from the `state` of a localizer on the same drawing, as if it had never stopped.
+
+        With `stood` the robot is taken not to have moved since, whatever odometry says. What is resumed is a
+        belief as any other, and is given up if what is seen speaks against it. Raises OtherDrawingError if
+        the state is of another drawing.
+        """
+        state.check_drawing(drawing.sketch if isinstance(drawing, Atlas) else drawing)
+        localizer = cls(drawing, settings, start=(0.0, 0.0), scale=scale)  # few particles, and replaced
+        vars(localizer).update(state.localizer)
+        vars(localizer.scan_matcher).update(state.scan_matcher)
+        localizer._rng.bit_generator.state = dict(state.generator)
+        if stood:
+            localizer.scan_matcher.stood_still()
+        return localizer
+
+    @property
+    def state(self) -> LocalizerState:
+        """All that was learned so far; `resumed` goes on from it."""
+        matcher = {name: value for name, value in vars(self.scan_matcher).items() if name != "settings"}
+        own = {name: value for name, value in vars(self).items() if name not in FIXED}
+        generator = self._rng.bit_generator.state
+        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator)
 
     @property
     def estimate(self) -> Estimate:

@@ -1,7 +1,7 @@
 """Scan in, command out: drives a robot to a goal on a drawing (Wolter 2001, section 4.2)."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from pilotage.maps import RouteError
 from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.behaviors import make_plan
+from pilotage.navigation.blocked_gateways import BlockedGateways
 from pilotage.navigation.dead_reckoning import DeadReckoning
 from pilotage.navigation.goal import find_goal
 from pilotage.navigation.local_grid import LocalGrid
@@ -49,7 +50,8 @@ class Navigator:
     """Drives to a goal, or to several in order.
 
     A goal is the name of a room, reached anywhere in it, or a point in the drawing's own units and axes; a
-    `Tour` holds several, and can go round and return. The time limit is that of each goal. Raises RouteError
+    `Tour` holds several, and can go round and return. The time limit is that of each goal.
+    `blocked` are ids of gateways that were found blocked before. Raises RouteError
     if a goal cannot be reached on this drawing, NotEnclosedError if the drawing has no cells, ValueError if a
     point is not finite.
     """
@@ -59,6 +61,8 @@ class Navigator:
         localizer: Localizer,
         goal: Place | Sequence[Place] | Tour,
         settings: NavigatorSettings | None = None,
+        *,
+        blocked: Collection[str] = (),
     ) -> None:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
@@ -67,8 +71,14 @@ class Navigator:
         self.position = DeadReckoning(localizer)
         self.local_grid = LocalGrid.unknown()
         self.memory: Memory | None = None  # before the first scan
+        self._blocked_before = tuple(blocked)
         self.plan = Plan(Behavior.LOOK_AROUND)
         self.home: Point | None = None  # where the drive began, once that is known; in the drawing's own axes
+
+    @property
+    def blocked(self) -> tuple[str, ...]:
+        """The ids of the gateways that are blocked now."""
+        return self._blocked_before if self.memory is None else self.memory.blocked.gateway_ids
 
     def step(self, scan: LaserScan, odometry: Odometry) -> Step:
         """Take one scan in, give one command out."""
@@ -77,6 +87,8 @@ class Navigator:
         self.local_grid = self.local_grid.seen(scan, self.position.odom_from_base)
         if self.memory is None:
             self.memory = Memory.at_start(scan, self.position.localized)
+            since = dict.fromkeys(self._blocked_before, scan.stamp)
+            self.memory = self.memory.with_blocked(BlockedGateways(since))
         if self.plan.outcome is None and self._is_due(scan.stamp, self.memory):
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
             situation = self._situation(scan.stamp, self.memory)

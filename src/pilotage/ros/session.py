@@ -2,10 +2,12 @@
 
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Twist
 from pilotage.io.bags.belief import Belief, MapFrame, known_scale
+from pilotage.io.state import SavedState, save_state
 from pilotage.localization import Estimate, Localizer, LocalizerSettings
 from pilotage.maps import Atlas
 from pilotage.navigation import Navigator, NavigatorSettings, Step, Tour
@@ -44,9 +46,16 @@ class Session:
         seed: int = 0,
         start: tuple[float, float, float] | None = None,
         scale: float | None = None,
+        resumed: SavedState | None = None,
     ) -> None:
         self._settings, self._seed, self._scale = settings, seed, scale
-        self._localizer = Localizer(atlas, settings[0], seed=seed, start=start, scale=scale)
+        self._blocked: tuple[str, ...] = () if resumed is None else resumed.blocked
+        if resumed is None:
+            self._localizer = Localizer(atlas, settings[0], seed=seed, start=start, scale=scale)
+        else:
+            self._localizer = Localizer.resumed(
+                atlas, resumed.localizer, settings[0], scale=scale, stood=True
+            )
         self.atlas = self._localizer.atlas
         self._navigator: Navigator | None = None
         self._reckoning = DeadReckoning(self._localizer)
@@ -56,14 +65,29 @@ class Session:
         self._shift, self._last_stamp = 0.0, -math.inf  # [s] so that time never runs backwards in here
         self.goal: Goal | None = None
 
+    @property
+    def has_seen(self) -> bool:
+        """Whether a scan was taken in."""
+        return self._last_stamp > -math.inf
+
+    def save(self, path: Path) -> None:
+        """Save what is believed, and the gateways that are blocked; raises FileError if that fails."""
+        save_state(path, self._localizer, self.blocked)
+
+    @property
+    def blocked(self) -> tuple[str, ...]:
+        """The ids of the gateways that were found blocked on this drive, or else on the last."""
+        return self._blocked if self._navigator is None else self._navigator.blocked
+
     def set_goal(self, goal: Goal | None) -> str:
         """Drive there from now on, or stop; return why not if it cannot be, else nothing."""
         if goal is None:
+            self._blocked = self.blocked
             self.goal, self._navigator = None, None
             self._reckoning = DeadReckoning(self._localizer)
             return ""
         try:
-            self._navigator = Navigator(self._localizer, goal, self._settings[1])
+            self._navigator = Navigator(self._localizer, goal, self._settings[1], blocked=self.blocked)
         except (PilotageError, ValueError) as error:
             return f"{goal} is no goal: {error}"
         self.goal = goal

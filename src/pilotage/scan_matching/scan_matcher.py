@@ -93,6 +93,10 @@ class ScanMatcher:
             last_from_base, odom_from_base, shapes, registration.inlier_share, not prior.is_known
         )
 
+    def stood_still(self) -> None:
+        """Take the next reading of odometry as being at the pose of now: its frame may have begun anew."""
+        self._odometry, self._speed = None, (0.0, 0.0, 0.0)
+
     def _motion_prior(self, odometry: Odometry) -> MotionPrior:
         """Carry the last pose on by what odometry reports."""
         if self._odometry is None:
