@@ -118,7 +118,8 @@ def test_navigator_step(benchmark: BenchmarkFixture, office: Office) -> None:
 
 def test_steering(benchmark: BenchmarkFixture) -> None:
     """From a way to a command among a thousand obstacles."""
-    from pilotage.navigation.steering import SteeringSettings, steer
+    from pilotage.navigation.braking import SteeringSettings
+    from pilotage.navigation.steering import steer
 
     rng = np.random.default_rng(0)
     obstacles = rng.uniform((-2.0, -2.0), (3.0, 2.0), (1000, 2))

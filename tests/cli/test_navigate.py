@@ -218,3 +218,11 @@ def test_several_goals_are_driven_to_in_order_and_each_is_told(call, site):
     assert ["kitchen", [25.0, 25.0]] * 2 == [one["goal"] for one in last["goals"]]
     assert "of 4 goals are reached" in outcome.out
     assert outcome.out.count("kitchen: the goal was not reached within 2 s") == 2
+
+
+@pytest.mark.parametrize("words", ["0.8", "0.4x0.6", "axb", "0.8xnan", "infx0.2", "0.8x0"])
+def test_a_footprint_that_is_none_is_refused(call, words):
+    outcome = call("--goal", "kitchen", "--footprint", words)
+
+    assert 2 == outcome.code
+    assert "LENGTHxWIDTH" in outcome.err

@@ -14,6 +14,7 @@ DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
         ((*DRIVE, "--braking", "-1"), "it must be positive, got -1.0"),
         (("--localize-only", "--drive"), "must be given to drive"),
         (("--localize-only", "--goal", "kitchen"), "excludes --drive and --goal"),
+        (("--footprint", "0.8x0.5", "--radius", "0.2"), "it excludes --radius"),
         (("--resume", "x.state", "--start", "1,2,3"), "it excludes --start"),
         (("--domain", "900"), "less than or equal to 232"),
     ],

@@ -13,7 +13,7 @@ from pilotage.evaluation.rooms import read_world_rooms
 from pilotage.io import open_map, open_world
 from pilotage.localization import Localizer, Status
 from pilotage.navigation import Navigator, NavigatorSettings, Outcome
-from pilotage.simulation import Simulator, find_start
+from pilotage.simulation import BodySettings, LaserSettings, Simulator, SimulatorSettings, find_start
 
 SHORT = replace(Settings(), navigator=NavigatorSettings(time_limit=150.0))
 
@@ -90,3 +90,24 @@ def test_a_drawing_of_another_building_is_noticed_for_a_while(lost_in_another_bu
 )
 def test_by_a_drawing_of_another_building_no_goal_is_ever_reached(lost_in_another_building):
     assert Outcome.REACHED is not lost_in_another_building.outcome
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("degrees", [360, 270])
+def test_a_rectangular_robot_drives_through_the_office_and_touches_nothing(degrees):
+    settings = replace(
+        SHORT,
+        navigator=replace(SHORT.navigator, radius=0.22, length=0.7, time_limit=240.0),
+        simulator=SimulatorSettings(
+            BodySettings(radius=0.22, length=0.7),
+            LaserSettings(beams=degrees, field_of_view=np.radians(degrees - 1.0)),
+        ),
+    )
+    navigator, simulator = set_out(
+        open_map(worlds.OFFICE.careful), open_world(worlds.OFFICE.world), "archive", seed=1, settings=settings
+    )
+    instants = list(drive(navigator, simulator))
+    told = Drive.of(navigator.planner.atlas, simulator.world, navigator.planner.goal, instants)
+
+    assert 0 == told.collisions
+    assert Outcome.REACHED is told.outcome, told.reason

@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pilotage.geometry import Pose2, Twist
+from pilotage.navigation.braking import SteeringSettings
 from pilotage.navigation.local_grid import CLEARANCE
-from pilotage.navigation.steering import SteeringSettings, steer, turn_on_the_spot
+from pilotage.navigation.steering import steer, turn_on_the_spot
 from pilotage.simulation import BodySettings
 from pilotage.simulation.body import rolled
 from strategies import angles

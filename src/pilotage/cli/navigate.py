@@ -8,7 +8,15 @@ import typer
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
 from pilotage.cli.exits import signals_held
-from pilotage.cli.options import GoalPlaces, Scale, Seed, SettingsFile, check_positive
+from pilotage.cli.options import (
+    FootprintSize,
+    GoalPlaces,
+    Scale,
+    Seed,
+    SettingsFile,
+    check_positive,
+    parse_footprint,
+)
 from pilotage.cli.places import parse_goals, parse_pose
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
@@ -58,6 +66,7 @@ def navigate(
         float | None,
         typer.Option(metavar="SECONDS", help="Simulated time for each goal.", show_default="as in settings"),
     ] = None,
+    footprint: FootprintSize = None,
     layer: Layers = None,
     label: Labels = None,
     page: Page = None,
@@ -95,6 +104,7 @@ def navigate(
     """
     check_positive(scale, "--scale")
     check_positive(time_limit, "--time-limit")
+    size = parse_footprint(footprint)
     from pilotage.io import open_world
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
@@ -102,7 +112,7 @@ def navigate(
     target = goals_on(sketch, goal)
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
-    chosen = chosen_settings(settings, time_limit)
+    chosen = chosen_settings(settings, time_limit, size)
     from pilotage.drives import set_out
     from pilotage.maps import NotEnclosedError
     from pilotage.navigation import Tour
@@ -166,13 +176,23 @@ def true_pose(words: str) -> "Pose2":
     return Pose2(*parse_pose(words, "--from"))
 
 
-def chosen_settings(path: Path | None, time_limit: float | None) -> "Settings":
-    """Read settings; the time limit of the command line overrides theirs."""
+def chosen_settings(
+    path: Path | None, time_limit: float | None, size: tuple[float, float] | None = None
+) -> "Settings":
+    """Read settings; time limit and size of the robot of the command line override theirs."""
     from dataclasses import replace
 
     from pilotage.config import Settings, read_settings
 
     settings = Settings() if path is None else read_settings(path)
+    if size is not None:
+        length, radius = size[0], size[1] / 2.0
+        body = replace(settings.simulator.body, length=length, radius=radius)
+        settings = replace(
+            settings,
+            navigator=replace(settings.navigator, length=length, radius=radius),
+            simulator=replace(settings.simulator, body=body),
+        )
     if time_limit is None:
         return settings
     return replace(settings, navigator=replace(settings.navigator, time_limit=time_limit))

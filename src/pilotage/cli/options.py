@@ -32,10 +32,37 @@ StartPose = Annotated[
         show_default="unknown",
     ),
 ]
+FootprintSize = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LENGTHxWIDTH",
+        help="A rectangular footprint about the base [m], as long as it is wide or longer.",
+        show_default="a disc",
+    ),
+]
 Scale = Annotated[float | None, typer.Option(help="Drawing units per metre, if known.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of all that is left to chance.")]
 SettingsFile = Annotated[Path | None, typer.Option("--settings", help="Settings to change (TOML).")]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that are there.")]
+
+
+def parse_footprint(words: str | None) -> tuple[float, float] | None:
+    """Read LENGTHxWIDTH [m], finite and positive.
+
+    >>> parse_footprint("0.8x0.5"), parse_footprint(None)
+    ((0.8, 0.5), None)
+    """
+    if words is None:
+        return None
+    try:
+        length, width = (float(side) for side in words.lower().split("x"))
+    except ValueError:
+        length = width = math.nan
+    if not (math.isfinite(length) and length >= width > 0.0):
+        raise typer.BadParameter(
+            f"it must be LENGTHxWIDTH in metres, not wider than long, got {words!r}", param_hint="--footprint"
+        )
+    return length, width
 
 
 def check_positive(value: float | None, option: str) -> None:

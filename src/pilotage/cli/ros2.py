@@ -9,7 +9,15 @@ import typer
 
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.exits import signals_held
-from pilotage.cli.options import Scale, Seed, SettingsFile, StartPose, check_positive
+from pilotage.cli.options import (
+    FootprintSize,
+    Scale,
+    Seed,
+    SettingsFile,
+    StartPose,
+    check_positive,
+    parse_footprint,
+)
 from pilotage.cli.places import parse_goals, parse_pose
 from pilotage.cli.terminal import busy, say
 
@@ -44,6 +52,7 @@ def ros2(
     radius: Annotated[
         float | None, typer.Option(metavar="M", help="Radius of the robot [m]; needed to drive.")
     ] = None,
+    footprint: FootprintSize = None,
     speed: Annotated[
         float | None, typer.Option(metavar="M/S", help="Fastest speed [m/s]; needed to drive.")
     ] = None,
@@ -96,6 +105,10 @@ def ros2(
     - Go on where it stopped: `pilotage ros2 office.svg --resume office.state`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
+    size = parse_footprint(footprint)
+    if size is not None and radius is not None:
+        raise typer.BadParameter("it excludes --radius", param_hint="--footprint")
+    radius = radius if size is None else size[1] / 2.0
     limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
     check(limits, drive=drive, localize_only=localize_only, goal=goal)
     check_tour(goal, patrol=patrol, returns=returns)
@@ -109,7 +122,14 @@ def ros2(
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
-    session = open_session(sketch, chosen_settings(settings, limits), seed, known, scale, resume)
+    session = open_session(
+        sketch,
+        chosen_settings(settings, limits, 0.0 if size is None else size[0]),
+        seed,
+        known,
+        scale,
+        resume,
+    )
     topics = Topics(
         scan_topic,
         odometry_topic,
@@ -147,7 +167,7 @@ def check_tour(goal: str | None, *, patrol: bool, returns: bool) -> None:
         raise typer.BadParameter("a patrol never ends", param_hint="--return")
 
 
-def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Settings":
+def chosen_settings(path: Path | None, limits: dict[str, float | None], length: float = 0.0) -> "Settings":
     """Read settings; size and limits of the command line override theirs."""
     from dataclasses import replace
 
@@ -158,7 +178,7 @@ def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Sett
     steering = {names[option]: value for option, value in limits.items() if option in names and value}
     navigator = replace(settings.navigator, steering=replace(settings.navigator.steering, **steering))
     if limits["--radius"]:
-        navigator = replace(navigator, radius=limits["--radius"])
+        navigator = replace(navigator, radius=limits["--radius"], length=length)
     return replace(settings, navigator=navigator)
 
 

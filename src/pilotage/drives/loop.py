@@ -86,5 +86,5 @@ def put_down(
     """Put the robot where it is to begin: there, or where the world says, or somewhere free."""
     truly = world_start if world_start is not None else world.start
     if truly is None:
-        truly = find_start(world, settings.body.radius, rng)
+        truly = find_start(world, settings.body.reach, rng)
     return Simulator(world, truly, rng, settings)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from pilotage.navigation.arrival import Doubt
+from pilotage.navigation.braking import SLOW
 from pilotage.navigation.frontier import farthest, farthest_along, find_frontiers, frontier_worth
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.situation import Situation
-from pilotage.navigation.steering import SLOW
 from pilotage.navigation.step import Behavior, Outcome
 
 SAMPLE = 200

@@ -4,31 +4,13 @@ A command is tried on the arc that it leads to (dynamic window approach, Fox, Bu
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from pilotage.geometry import Array, Twist
+from pilotage.navigation.braking import SLOW, SteeringSettings, braking_path
 from pilotage.navigation.local_grid import CLEARANCE
-
-
-@dataclass(frozen=True, slots=True)
-class SteeringSettings:
-    """How fast the robot may move, and how well it brakes."""
-
-    speed: float = 0.8  # [m/s] fastest speed
-    turn_rate: float = 1.2  # [rad/s] fastest turn
-    braking: float = 0.8  # [m/s2] deceleration that the robot can rely on
-    delay: float = 0.2  # [s] from a scan until the wheels obey
-
-    def __post_init__(self) -> None:
-        """Reject invalid settings."""
-        for name in ("speed", "turn_rate", "braking"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-        if not self.delay >= 0.0:
-            raise ValueError(f"delay must be >= 0 s, got {self.delay}")
-
+from pilotage.navigation.rectangle import is_free_to_obey, turned_or_backed_out
 
 SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
 """Shares of the fastest speed, and of the look-ahead distance, that are tried in order."""
@@ -42,9 +24,6 @@ PIVOT = math.radians(45.0)
 GAIN = 2.5
 """Turn rate for each radian of bearing [1/s]."""
 
-SLOW = 0.02
-"""Speed [m/s] above which a robot counts as moving: wheels slip."""
-
 STILL = Twist(0.0, 0.0)
 
 
@@ -56,10 +35,12 @@ def steer(
     moving: Twist = STILL,
     *,
     sight: float = math.inf,
+    rectangle: tuple[float, float] | None = None,
 ) -> Twist:
     """Follow a path (k, 2) among obstacles (n, 2) with a body of `radius`, all in the robot's frame [m].
 
     `moving` is how the robot moves now, `sight` how far it sees [m]: farther away may be obstacles.
+    With a `rectangle`, length and width [m], the whole of it must have room; `radius` is half its width.
     Where no forward command is safe, the robot stands or turns on the spot. A robot that moves first brakes
     on its arc, which was found free.
     """
@@ -73,8 +54,12 @@ def steer(
         for share in SHARES:
             command = Twist(share * fastest, share * angular)
             braking = Twist(max(command.linear, slowest), command.angular)
-            if can_stop(braking, obstacles, radius, settings, sight=sight):
+            if not can_stop(braking, obstacles, radius, settings, sight=sight):
+                continue
+            if rectangle is None or is_free_to_obey(braking, obstacles, rectangle, settings):
                 return command
+    if rectangle is not None:
+        return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
     return turn_on_the_spot(angular, moving)
 
 
@@ -114,14 +99,3 @@ def can_stop(
     gaps = np.hypot(near[:, :1] - arc[:, 0], near[:, 1:] - arc[:, 1])
     needed = np.minimum(radius + CLEARANCE, np.hypot(near[:, 0], near[:, 1]))
     return bool((gaps >= needed[:, np.newaxis] - 1e-9).all())
-
-
-def braking_path(command: Twist, settings: SteeringSettings) -> Array:
-    """List the positions of a robot that obeys for the delay and then brakes, still turning, (k, 2) [m]."""
-    speed, braking = command.linear, settings.braking
-    until = settings.delay + speed / braking
-    times = np.linspace(0.0, until, max(3, math.ceil(until / 0.05)) + 1)
-    speeds = np.clip(speed - braking * np.maximum(times - settings.delay, 0.0), 0.0, speed)
-    lengths = (speeds[1:] + speeds[:-1]) / 2.0 * np.diff(times)
-    headings = command.angular * (times[1:] + times[:-1]) / 2.0
-    return np.column_stack([np.cumsum(lengths * np.cos(headings)), np.cumsum(lengths * np.sin(headings))])

@@ -10,7 +10,8 @@ from pilotage.geometry import Pose2, Twist
 class BodySettings:
     """How large the robot is and how it can move."""
 
-    radius: float = 0.2  # [m] of its footprint, a disc about its base
+    radius: float = 0.2  # [m] of its footprint, a disc about its base; half the width of a rectangle
+    length: float = 0.0  # [m] of a rectangular footprint about its base; 0 for a disc
     speed: float = 0.8  # [m/s] at most, forward and backward
     turn_rate: float = 1.2  # [rad/s] at most, either way
     acceleration: float = 1.0  # [m/s²] at most, speeding up and braking
@@ -18,9 +19,21 @@ class BodySettings:
 
     def __post_init__(self) -> None:
         """Reject invalid settings."""
-        for name in self.__slots__:
+        if not (self.length == 0.0 or self.length >= 2.0 * self.radius):
+            raise ValueError(f"length must be 0 or at least the width {2.0 * self.radius}, got {self.length}")
+        for name in ("radius", "speed", "turn_rate", "acceleration", "turn_acceleration"):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+
+    @property
+    def rectangle(self) -> tuple[float, float] | None:
+        """Length and width [m] of a rectangular footprint; None for a disc."""
+        return (self.length, 2.0 * self.radius) if self.length else None
+
+    @property
+    def reach(self) -> float:
+        """From the base to the farthest point of the body [m]."""
+        return math.hypot(self.length / 2.0, self.radius) if self.length else self.radius
 
     def obeyed(self, now: Twist, command: Twist, time_step: float) -> Twist:
         """Tell how it moves a time step [s] after it got a command: as near to it as it can."""

@@ -11,6 +11,7 @@ from pilotage.perception import Odometry, Reading
 from pilotage.simulation.body import BodySettings, rolled
 from pilotage.simulation.laser import LaserSettings, sense
 from pilotage.simulation.odometry import OdometrySettings, Wheels
+from pilotage.simulation.rectangle import share_before_contact, touches
 from pilotage.simulation.scene import Scene
 from pilotage.simulation.traffic import Traffic
 from pilotage.simulation.world import World
@@ -56,7 +57,7 @@ class Simulator:
         rng: np.random.Generator,
         settings: SimulatorSettings = SimulatorSettings(),
     ) -> None:
-        check_standing(world, start, settings.body.radius)
+        check_standing(world, start, settings.body.reach)
         self.world = world
         self.settings = settings
         self.world_from_base = start
@@ -67,7 +68,7 @@ class Simulator:
         self._reading: Reading | None = None
         self._laser_rng, wheels_rng, traffic_rng = rng.spawn(3)  # so that none disturbs the others
         self._wheels = Wheels(wheels_rng, settings.odometry)
-        self._traffic = Traffic(world, traffic_rng, start.position, settings.body.radius)
+        self._traffic = Traffic(world, traffic_rng, start.position, settings.body.reach)
 
     @property
     def stamp(self) -> float:
@@ -101,7 +102,7 @@ class Simulator:
 
     def carry(self, world_from_base: Pose2) -> None:
         """Put the robot elsewhere, unseen by its wheels; StartError if it cannot stand there."""
-        check_standing(self.world, world_from_base, self.settings.body.radius)
+        check_standing(self.world, world_from_base, self.settings.body.reach)
         self.world_from_base, self.twist = world_from_base, Twist(0.0, 0.0)
         self._touching, self._reading = False, None
 
@@ -133,11 +134,12 @@ class Simulator:
         """Drive on as far as nothing is in the way; where something is, stop at the point of contact."""
         wanted = rolled(self.twist, self.settings.time_step)
         share = self._share_before_contact(wanted)
-        move = Pose2(share * wanted.x, share * wanted.y, wanted.theta)
+        turned = share if self.settings.body.rectangle else 1.0  # a disc turns freely
+        move = Pose2(share * wanted.x, share * wanted.y, turned * wanted.theta)
         self.world_from_base = self.world_from_base @ move
         self._wheels.roll(move)
         if share < 1.0:
-            self.twist = Twist(0.0, self.twist.angular)
+            self.twist = Twist(0.0, self.twist.angular if self.settings.body.rectangle is None else 0.0)
             self.collisions += not self._touching
             self._touching = True
         elif self._touching:
@@ -147,6 +149,9 @@ class Simulator:
         """Return what share of a motion in the robot's frame it can make before it touches anything."""
         from pilotage.kernels.contact import share_before_all
 
+        size = self.settings.body.rectangle
+        if size is not None:
+            return share_before_contact(self.world_from_base, move, size, *self._things)
         if move.x == 0.0 and move.y == 0.0:
             return 1.0
         here = self.world_from_base
@@ -163,10 +168,19 @@ class Simulator:
         )
         return float(share)
 
+    @property
+    def _things(self) -> tuple[Array, Array]:
+        """What a robot may touch now: segments (m, 4) and discs (k, 3)."""
+        return np.vstack([self.world.solid, self.closed_doors]), self._traffic.movers.people
+
     def _room(self) -> float:
         """Measure from the robot's body to the nearest thing, up to a little over APART [m]."""
         from pilotage.kernels.contact import distance_to_segment
 
+        size = self.settings.body.rectangle
+        if size is not None:
+            grown = size[0] + 2.0 * APART, size[1] + 2.0 * APART
+            return 0.0 if touches(self.world_from_base, grown, *self._things) else APART
         reach = self.settings.body.radius + 2.0 * APART
         x, y = where = self.world_from_base.position
         walls = float(self.world.clearance([where], reach)[0])
