@@ -36,6 +36,7 @@ def kinds(sketch):
 
 GOOD = drawing(*CORRIDOR_AND_FOUR_ROOMS)
 DOOR_OF_BEN = ([(14, 5), (15, 5)],)
+DOORS_OF_THREE = (*DOOR_OF_BEN, [(4, 5), (5, 5)], [(4, 7), (5, 7)])
 
 
 def test_nothing_is_wrong_with_a_good_drawing():
@@ -85,6 +86,32 @@ def test_two_buildings_on_one_sheet_are_told():
 
     assert Severity.WARNING is found["two-buildings"].severity
     assert 5 == len(found["two-buildings"].cell_ids)
+
+
+def test_parts_that_only_a_wall_divides_are_one_building():
+    moved = [[(x + 20.3, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
+    found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
+
+    assert "two-buildings" not in found
+    assert 5 == len(found["unreachable"].cell_ids)
+
+
+def test_a_drawing_whose_doors_are_closed_is_said_to_be_in_pieces_first():
+    found = pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOORS_OF_THREE))
+
+    assert "in-pieces" == found[0].kind
+    assert "doors join only 2 of 5 rooms" == found[0].text
+    assert "in-pieces" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))
+
+
+def test_rooms_called_stairs_that_a_robot_may_drive_into_are_told():
+    named = replace(GOOD, labels=(*NAMES[1:], Label("Lift 2", (5.0, 2.0))))
+    found = kinds(named)["stairs-room"]
+
+    assert ("lift-2",) == found.cell_ids
+    closed = kinds(replace(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN), labels=named.labels))
+    assert "'Lift 2'" in closed["stairs-room"].text
+    assert "stairs-room" not in kinds(GOOD)
 
 
 def test_a_wing_without_a_way_to_it_is_told_with_a_door():

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 OF_A_KIND = 3
 """So many findings of a kind are listed; --json lists all."""
 
+MOST_NAMES = 8
+"""So many names of layers are listed, those with most marks; a name of one mark tells no layer."""
+
 
 def check(
     drawing: Map,
@@ -135,7 +138,9 @@ def marks_in_words(found: "Report") -> list[str]:
         reasons = Counter(meaning.reason for meaning in meanings if meaning.role is role)
         told = ", ".join(f"{reason} ({number})" for reason, number in reasons.most_common(3))
         lines.append(f"{count} mark{'s' * (count != 1)} {role.value}: {told}")
-    return lines
+    names = Counter(name for mark in found.interpretation.sheet.marks for name in set(mark.names))
+    common = [f"{name!r} ({count})" for name, count in names.most_common(MOST_NAMES) if count > 1]
+    return [*lines, f"names for --layer: {', '.join(common)}"] if common else lines
 
 
 def json_of(found: "Report", remarks: tuple[str, ...]) -> dict[str, object]:

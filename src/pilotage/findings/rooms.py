@@ -7,11 +7,19 @@ import shapely
 
 from pilotage.findings.doors import suggest_door
 from pilotage.findings.finding import Finding, Severity
+from pilotage.interpretation import Role
+from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
 from pilotage.maps.routing.places import connected_cells
 
 BUILDING = 0.2
 """A part that cannot be reached is a building of its own from this share of the largest part's area on."""
+
+APART = 0.04
+"""And if it is so far from it that no wall is between, as a share of the drawing's diameter."""
+
+WHOLE, FEW = 0.6, 3
+"""A drawing is in pieces if its largest part has less than this share of the floor, beside so many others."""
 
 SOLID = 0.005
 """A closed area of less than this share of all cells is not worth a word."""
@@ -64,19 +72,28 @@ def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator
 
 
 def find_parts(graph: CellGraph) -> Iterator[Finding]:
-    """Find cells that cannot be reached from the rest, and sheets that show two buildings."""
+    """Find cells that cannot be reached from the rest, drawings in pieces, and sheets of two buildings."""
     parts = connected_cells(graph)
-    areas = [sum(graph.cell(name).polygon.area for name in part) for part in parts]
-    hulls = [
-        shapely.convex_hull(shapely.union_all([graph.cell(name).polygon for name in part])) for part in parts
-    ]
+    shapes = [shapely.union_all([graph.cell(name).polygon for name in part]) for part in parts]
+    hulls, areas = shapely.convex_hull(shapes), shapely.area(shapes)
+    stands_apart = (areas > BUILDING * areas[0]) & ~shapely.intersects(hulls, hulls[0])
+    stands_apart &= shapely.distance(shapes, shapes[0]) > APART * graph.diameter
+    beside = [number for number in range(1, len(parts)) if not stands_apart[number]]
+    if len(beside) >= FEW and areas[0] < WHOLE * areas[[0, *beside]].sum():
+        count = sum(len(parts[number]) for number in (0, *beside))
+        yield Finding(
+            "in-pieces",
+            Severity.WARNING,
+            f"doors join only {len(parts[0])} of {count} rooms",
+            "walls or doors are not understood as they are meant: the picture of --figure shows how;"
+            " erase what is no wall, leave gaps for doors, or say what a layer is (--layer NAME=door)",
+        )
     for number in range(1, len(parts)):
         if len(parts[number]) < 2:
             continue  # a room without a door
         cells = [cell for cell in graph.cells if cell.cell_id in parts[number]]
-        is_building = areas[number] > BUILDING * areas[0] and not hulls[number].intersects(hulls[0])
         listed = ", ".join(named(cell) for cell in cells[:4]) + (", ..." if len(cells) > 4 else "")
-        if is_building:
+        if stands_apart[number]:
             yield Finding(
                 "two-buildings",
                 Severity.WARNING,
@@ -101,6 +118,21 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
             )
 
 
+def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
+    """Find rooms that are called stairs or lifts, and that doors lead into all the same."""
+    for cell in graph.cells:
+        roles = {MEANING.get(word) for word in name_words(cell.label)}
+        if Role.STAIRS in roles and graph.gateways_of(cell.cell_id):
+            yield Finding(
+                "stairs-room",
+                Severity.NOTE,
+                f"{named(cell)} counts as a room that a robot may drive in",
+                "if it may not, draw its steps on a layer named 'stairs', or close its door",
+                cell.center,
+                (cell.cell_id,),
+            )
+
+
 def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
     """Find labels outside of rooms, names that several rooms have, and rooms that have several names."""
     graph = division.graph
@@ -122,7 +154,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 "same-name",
                 Severity.NOTE,
                 f"{len(cells)} rooms are called {cells[0].label!r}",
-                f"call them by their ids ({', '.join(cell.cell_id for cell in cells)}) or number them",
+                "number them, or say which by X,Y",
                 cells[1].center,
                 tuple(cell.cell_id for cell in cells),
             )
