@@ -104,6 +104,14 @@ def test_a_drawing_whose_doors_are_closed_is_said_to_be_in_pieces_first():
     assert "in-pieces" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))
 
 
+def test_named_rooms_among_many_without_a_name_are_said_to_be_cut():
+    halves = [[(x + 20, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
+    both = drawing(*CORRIDOR_AND_FOUR_ROOMS, *halves, [(20, 0), (20, 12)], labels=NAMES[:3])
+
+    assert "7 of 10 rooms have no name" in kinds(both)["cut-rooms"].text
+    assert "cut-rooms" not in kinds(replace(GOOD, labels=NAMES[:3]))
+
+
 def test_rooms_called_stairs_that_a_robot_may_drive_into_are_told():
     named = replace(GOOD, labels=(*NAMES[1:], Label("Lift 2", (5.0, 2.0))))
     found = kinds(named)["stairs-room"]

@@ -24,6 +24,9 @@ WHOLE, FEW = 0.6, 3
 SOLID = 0.005
 """A closed area of less than this share of all cells is not worth a word."""
 
+NAMED, UNNAMED = 3, 2.0
+"""Where so many rooms have a name, rooms without are pieces of others if they are so many times as many."""
+
 LISTED = 3
 """So many words are listed before the rest is counted."""
 
@@ -144,6 +147,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
             "write names into the rooms, or give them by --label NAME=X,Y",
         )
     yield from find_stray_labels(sketch, division)
+    yield from find_cut_rooms(graph)
     by_name: dict[str, list[Cell]] = {}
     for cell in graph.cells:
         if cell.label:
@@ -169,6 +173,22 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 cell.center,
                 (cell.cell_id,),
             )
+
+
+def find_cut_rooms(graph: CellGraph) -> Iterator[Finding]:
+    """Find drawings that name their rooms and fall into many more cells without a name."""
+    unnamed = [cell for cell in graph.cells if not cell.label]
+    named_count = len(graph.cells) - len(unnamed)
+    if named_count < NAMED or len(unnamed) < UNNAMED * named_count:
+        return
+    yield Finding(
+        "cut-rooms",
+        Severity.NOTE,
+        f"{len(unnamed)} of {len(graph.cells)} rooms have no name: furniture may cut rooms in pieces",
+        "erase what is no wall, or say which layers are none: --layer NAME=furniture",
+        unnamed[0].center,
+        tuple(cell.cell_id for cell in unnamed),
+    )
 
 
 def find_stray_labels(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
