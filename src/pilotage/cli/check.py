@@ -22,7 +22,7 @@ OF_A_KIND = 3
 """So many findings of a kind are listed; --json lists all."""
 
 MOST_NAMES = 8
-"""So many names of walls are listed, those with most marks; a name of one mark tells no layer."""
+"""So many names of walls are listed, those with most marks; a name of one mark, or of all, is no layer."""
 
 
 def check(
@@ -146,7 +146,9 @@ def marks_in_words(found: "Report") -> list[str]:
         if meaning.role is Role.WALL
         for name in set(mark.names)
     )
-    common = [f"{name!r} ({count})" for name, count in names.most_common(MOST_NAMES) if count > 1]
+    walls = sum(meaning.role is Role.WALL for meaning in meanings)
+    telling = [(name, count) for name, count in names.most_common() if 1 < count < walls]
+    common = [f"{name!r} ({count})" for name, count in telling[:MOST_NAMES]]
     return [*lines, f"walls by name, for --layer: {', '.join(common)}"] if common else lines
 
 
