@@ -13,6 +13,7 @@ import pilotage
 from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage import worlds
 from pilotage.findings import MendKind, Severity, for_ends, report, worst
+from pilotage.findings.doors import suggest_door
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import Label, SchematicMap
@@ -60,6 +61,20 @@ def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():
     ends = np.array(found.mend.segment)
     assert np.hypot(*(ends[1] - ends[0])) == pytest.approx(1.0, rel=0.3)
     assert shapely.LineString(ends).distance(shapely.box(10, 0, 20, 5).exterior) < 0.1
+
+
+def test_a_door_is_suggested_where_one_is_drawn():
+    room = shapely.box(10, 0, 20, 5)
+    neighbors = [shapely.box(0, 0, 10, 5), shapely.box(10, 5, 20, 7)]
+    graph = report(GOOD).graph
+
+    anywhere = suggest_door(room, neighbors, graph)
+    drawn = suggest_door(room, neighbors, graph, np.array([(9.0, 1.5), (30.0, 30.0)]))
+    far = suggest_door(room, neighbors, graph, np.array([(15.0, 2.5)]))
+
+    assert np.mean(anywhere.segment, axis=0) == pytest.approx((15.0, 5.0))
+    assert np.mean(drawn.segment, axis=0) == pytest.approx((10.0, 1.5))
+    assert far == anywhere
 
 
 def test_labels_outside_of_rooms_are_told_in_one_finding():

@@ -13,6 +13,7 @@ from pilotage.findings.page import (
     nothing_enclosed,
 )
 from pilotage.findings.rooms import (
+    drawn_doors,
     find_closed_areas,
     find_names,
     find_parts,
@@ -85,7 +86,7 @@ def find_all(
     yield from find_bad_ends(sketch, division.graph)
     yield from find_parts(division.graph)
     yield from find_closed_areas(division, sketch.labels)
-    yield from find_rooms_without_door(division.graph)
+    yield from find_rooms_without_door(division.graph, drawn_doors(interpretation))
     yield from find_stair_rooms(division.graph)
     yield from find_far_strokes(sketch, division.graph)
     yield from find_names(sketch, division)

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from pilotage.findings.doors import suggest_door
+from pilotage.findings.doors import NOWHERE, suggest_door
 from pilotage.findings.finding import Finding, Severity
-from pilotage.interpretation import Role
+from pilotage.geometry import Array
+from pilotage.interpretation import Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
 from pilotage.maps.routing.places import connected_cells
@@ -33,12 +34,12 @@ LISTED = 3
 DOOR_ADVICE = "leave a gap in its wall where the door is"
 
 
-def find_rooms_without_door(graph: CellGraph) -> Iterator[Finding]:
-    """Find cells that no gateway leads to."""
+def find_rooms_without_door(graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+    """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2)."""
     for cell in graph.cells:
         if len(graph.cells) > 1 and not graph.gateways_of(cell.cell_id):
             others = [other.polygon for other in graph.cells if other is not cell]
-            mend = suggest_door(cell.polygon, others, graph)
+            mend = suggest_door(cell.polygon, others, graph, drawn)
             text = f"no door leads into {named(cell)}"
             yield Finding(
                 "room-without-door",
@@ -49,6 +50,15 @@ def find_rooms_without_door(graph: CellGraph) -> Iterator[Finding]:
                 (cell.cell_id,),
                 mend,
             )
+
+
+def drawn_doors(interpretation: Interpretation | None) -> Array:
+    """List the ends of all marks that were taken for doors, (n, 2)."""
+    if interpretation is None:
+        return NOWHERE
+    pairs = zip(interpretation.sheet.marks, interpretation.meanings, strict=True)
+    doors = [line.vertices for mark, meaning in pairs if meaning.role is Role.DOOR for line in mark.outlines]
+    return np.vstack([NOWHERE, *(vertices[[0, -1]] for vertices in doors)])
 
 
 def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator[Finding]:
