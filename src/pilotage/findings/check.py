@@ -20,6 +20,7 @@ from pilotage.findings.rooms import (
     find_rooms_without_door,
     find_stair_rooms,
 )
+from pilotage.findings.steps import find_drivable_stairs
 from pilotage.interpretation import Interpretation
 from pilotage.maps import (
     CellGraph,
@@ -88,6 +89,7 @@ def find_all(
     yield from find_closed_areas(division, sketch.labels)
     yield from find_rooms_without_door(division.graph, drawn_doors(interpretation))
     yield from find_stair_rooms(division.graph)
+    yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)
     yield from find_names(sketch, division)
     yield from find_closed_gaps(division)
