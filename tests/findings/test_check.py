@@ -111,6 +111,12 @@ def test_parts_that_only_a_wall_divides_are_one_building():
     assert 5 == len(found["unreachable"].cell_ids)
 
 
+def test_a_part_behind_another_part_is_of_the_same_building():
+    moved = [[(x + 20.3 * k, y) for x, y in stroke] for k in (1, 2) for stroke in CORRIDOR_AND_FOUR_ROOMS]
+
+    assert "two-buildings" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
+
+
 def test_a_drawing_whose_doors_are_closed_is_said_to_be_in_pieces_first():
     found = pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOORS_OF_THREE))
 

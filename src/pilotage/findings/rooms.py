@@ -3,7 +3,9 @@
 from collections.abc import Iterator
 
 import numpy as np
+import rustworkx
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.findings.doors import NOWHERE, suggest_door
 from pilotage.findings.finding import Finding, Severity
@@ -90,7 +92,7 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
     shapes = [shapely.union_all([graph.cell(name).polygon for name in part]) for part in parts]
     hulls, areas = shapely.convex_hull(shapes), shapely.area(shapes)
     stands_apart = (areas > BUILDING * areas[0]) & ~shapely.intersects(hulls, hulls[0])
-    stands_apart &= shapely.distance(shapes, shapes[0]) > APART * graph.diameter
+    stands_apart &= ~in_one_building(shapes, APART * graph.diameter)
     beside = [number for number in range(1, len(parts)) if not stands_apart[number]]
     if len(beside) >= FEW and areas[0] < WHOLE * areas[[0, *beside]].sum():
         count = sum(len(parts[number]) for number in (0, *beside))
@@ -129,6 +131,18 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
                     graph,
                 ),
             )
+
+
+def in_one_building(shapes: list[shapely.Geometry], wall: float) -> NDArray[np.bool_]:
+    """Tell which shapes (n,) hang with the first one, also by others, across no more than a wall."""
+    network = rustworkx.PyGraph()
+    network.add_nodes_from(range(len(shapes)))
+    tree = shapely.STRtree(shapes)
+    near = tree.query(shapes, predicate="dwithin", distance=wall).T
+    network.add_edges_from_no_data(list(map(tuple, near.tolist())))
+    found = np.zeros(len(shapes), dtype=bool)
+    found[list(rustworkx.node_connected_component(network, 0))] = True
+    return found
 
 
 def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
