@@ -63,6 +63,15 @@ def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():
     assert shapely.LineString(ends).distance(shapely.box(10, 0, 20, 5).exterior) < 0.1
 
 
+def test_a_room_whose_only_door_leads_out_of_the_drawing_is_told_so():
+    shell = [[(14, 0), (0, 0), (0, 12), (20, 12), (20, 0), (15, 0)]]
+    found = kinds(drawing(*shell, *CORRIDOR_AND_FOUR_ROOMS[1:], *DOOR_OF_BEN))["room-without-door"]
+    closed = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))["room-without-door"]
+
+    assert "no door leads into 'Ben', except from outside of what is drawn" == found.text
+    assert "no door leads into 'Ben'" == closed.text
+
+
 def test_a_door_is_suggested_where_one_is_drawn():
     room = shapely.box(10, 0, 20, 5)
     neighbors = [shapely.box(0, 0, 10, 5), shapely.box(10, 5, 20, 7)]

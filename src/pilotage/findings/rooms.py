@@ -7,7 +7,7 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.findings.doors import NOWHERE, suggest_door
+from pilotage.findings.doors import NOWHERE, door_width, suggest_door
 from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
@@ -33,25 +33,38 @@ NAMED, UNNAMED = 3, 2.0
 LISTED = 3
 """So many words are listed before the rest is counted."""
 
+ALONG = 0.003
+"""An outline is open where it is farther than this from all strokes, as a share of the drawing's diameter."""
+
+LEAST_DOOR = 0.4
+"""A door to the outside has at least this share of the usual width."""
+
 DOOR_ADVICE = "leave a gap in its wall where the door is"
 
 
-def find_rooms_without_door(graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array) -> Iterator[Finding]:
     """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2)."""
-    for cell in graph.cells:
-        if len(graph.cells) > 1 and not graph.gateways_of(cell.cell_id):
-            others = [other.polygon for other in graph.cells if other is not cell]
-            mend = suggest_door(cell.polygon, others, graph, drawn)
-            text = f"no door leads into {named(cell)}"
-            yield Finding(
-                "room-without-door",
-                Severity.WARNING,
-                text,
-                DOOR_ADVICE,
-                cell.center,
-                (cell.cell_id,),
-                mend,
-            )
+    rooms = [cell for cell in graph.cells if not graph.gateways_of(cell.cell_id)]
+    if len(graph.cells) == 1 or not rooms:
+        return
+    strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    for cell in rooms:
+        others = [other.polygon for other in graph.cells if other is not cell]
+        mend = suggest_door(cell.polygon, others, graph, drawn)
+        text, advice = f"no door leads into {named(cell)}", DOOR_ADVICE
+        if leads_outdoors(cell, strokes, door_width(graph), ALONG * graph.diameter):
+            text += ", except from outside of what is drawn"
+            advice = "draw the walls around the place where it leads, or leave a gap in another wall"
+        yield Finding("room-without-door", Severity.WARNING, text, advice, cell.center, (cell.cell_id,), mend)
+
+
+def leads_outdoors(cell: Cell, strokes: shapely.STRtree, door: float, near: float) -> bool:
+    """Tell whether the outline of a cell without a gateway is open for the width of a door."""
+    outline = cell.polygon.exterior
+    beside = strokes.geometries[strokes.query(outline, predicate="dwithin", distance=near)]
+    walls = shapely.union_all(shapely.buffer(beside, near))
+    parts = shapely.get_parts(shapely.line_merge(shapely.difference(outline, walls)))
+    return bool((shapely.length(parts) + 2.0 * near > LEAST_DOOR * door).any())
 
 
 def drawn_doors(interpretation: Interpretation | None) -> Array:
