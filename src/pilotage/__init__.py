@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pilotage.io import open_log, open_map, open_world
     from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
     from pilotage.maps import SchematicMap
-    from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Step
+    from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Step, Tour
     from pilotage.perception import LaserScan, Odometry, Reading
     from pilotage.simulation import World
 
@@ -45,6 +45,7 @@ __all__ = [
     "Similarity2",
     "Status",
     "Step",
+    "Tour",
     "Twist",
     "World",
     "check",
@@ -63,7 +64,7 @@ HOMES = {
     "io": ("open_log", "open_map", "open_world"),
     "localization": ("Estimate", "Localizer", "LocalizerSettings", "PoseHypothesis", "Status"),
     "maps": ("SchematicMap",),
-    "navigation": ("Behavior", "Navigator", "NavigatorSettings", "Outcome", "Step"),
+    "navigation": ("Behavior", "Navigator", "NavigatorSettings", "Outcome", "Step", "Tour"),
     "perception": ("LaserScan", "Odometry", "Reading"),
     "simulation": ("World",),
 }

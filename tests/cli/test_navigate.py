@@ -207,3 +207,14 @@ def test_a_wrong_call_is_exit_code_2(call, site, words):
     assert 2 == outcome.code
     assert (words[-2] if words else "--goal") in outcome.err
     assert not site[2].exists()
+
+
+def test_several_goals_are_driven_to_in_order_and_each_is_told(call, site):
+    words = ("--goal", "kitchen,25,25", "--rounds", "2", "--time-limit", "2", "--no-animation")
+    outcome = call(*words, "--start", "25,25,0", *SOUTH_WEST, "--scale", "10")
+    last = json.loads((site[2] / JOURNAL).read_text().splitlines()[-1])
+
+    assert 0 == outcome.code
+    assert ["kitchen", [25.0, 25.0]] * 2 == [one["goal"] for one in last["goals"]]
+    assert "of 4 goals are reached" in outcome.out
+    assert outcome.out.count("kitchen: the goal was not reached within 2 s") == 2

@@ -25,6 +25,7 @@ def test_what_is_no_journal_or_no_name_for_an_output_is_refused_in_one_line(pilo
     for words, rule in (
         ((bad, "-o", tmp_path / "out.mcap"), "line 1 must be an estimate"),
         ((bad, "-o", tmp_path / "out.bag"), "must end in .mcap"),
+        ((bad, "-o", tmp_path / "out.mcap", "--start", "1,2,0"), "--start is for laser logs"),
     ):
         outcome = pilotage("record", worlds.OFFICE.careful, *words)
         assert 1 == outcome.code

@@ -222,3 +222,16 @@ def test_any_scribble_has_an_answer_and_the_worst_comes_first(points):
     order = [list(Severity).index(finding.severity) for finding in findings]
 
     assert order == sorted(order)
+
+
+def test_a_one_way_arrow_beside_the_door_and_a_goal_where_none_may_drive_are_told(tmp_path):
+    body = """<rect x="0" y="0" width="100" height="60"/><polyline points="50,0 50,20"/>
+    <polyline points="50,30 50,60"/><line class="one-way" x1="40" y1="50" x2="48" y2="50"/>
+    <line class="one-way" x1="40" y1="25" x2="60" y2="25"/><circle id="goal" cx="80" cy="20" r="1"/>
+    <rect class="keep-out" x="70" y="10" width="20" height="20"/>"""
+    path = tmp_path / "two.svg"
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" fill="none" stroke="black">{body}</svg>')
+    found = {one.kind: one for one in pilotage.check(open_map(path))}
+
+    assert (40.0, 50.0) == pytest.approx(found["idle-arrow"].where)
+    assert "the goal lies in a keep-out zone" in found["bad-goal"].text

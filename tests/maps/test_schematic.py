@@ -1,11 +1,15 @@
 """Drawings as in a mirror."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
 
+from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import DecompositionSettings, decompose
+from pilotage.maps.zones import Zones
 from pilotage.worlds import OFFICE
 
 
@@ -23,6 +27,15 @@ def test_a_mirror_image_of_a_mirror_image_is_the_drawing(office):
     assert twice.file_from_sketch(office.segments[:, :2]) == pytest.approx(
         office.file_from_sketch(office.segments[:, :2])
     )
+
+
+def test_zones_are_mirrored_and_arrows_point_as_before(office):
+    ring, arrow = (Polyline.through(points) for points in ([(0, 0), (4, 0), (4, 2)], [(1, 1), (1, 9)]))
+    zones = replace(office, zones=Zones(keep_out=(ring,), one_way=(arrow,))).mirrored().zones
+    left, _, right, _ = office.bounds
+
+    assert zones.keep_out[0].vertices[:, 0] == pytest.approx(left + right - ring.vertices[:, 0])
+    assert zones.one_way[0].vertices.tolist() == [[left + right - 1, 1], [left + right - 1, 9]]
 
 
 def test_rooms_keep_their_names_and_places_in_the_file(office):

@@ -13,9 +13,9 @@ from pilotage.drives import drive
 from pilotage.drives.record import Drive
 from pilotage.geometry import Polyline, Pose2
 from pilotage.localization import Status
-from pilotage.maps import NotEnclosedError, RouteError, SchematicMap, build_atlas
+from pilotage.maps import NotEnclosedError, RouteError, SchematicMap, Zones, build_atlas
 from pilotage.maps.schematic import Label
-from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome
+from pilotage.navigation import Behavior, Navigator, NavigatorSettings, Outcome, Tour
 from pilotage.simulation import (
     Door,
     LaserSettings,
@@ -340,3 +340,76 @@ def test_a_robot_that_has_arrived_drives_to_another_goal_if_it_is_told_to():
     assert Outcome.REACHED is instants[-1].step.outcome
     assert KITCHEN == instants[-1].step.estimate.cell_id
     assert 5.0 < instants[-1].scene.world_from_base.x
+
+
+def test_goals_are_visited_in_order_and_the_way_leads_back():
+    tour = Tour(("kitchen", (7.5, 7.5)), returns=True)
+    told = driven(tour, time_limit=60.0)
+    visits = told.steps[-1].visits
+
+    assert [Outcome.REACHED] * 3 == [visit.outcome for visit in visits]
+    assert "3 of 3 goals are reached" == told.reason
+    assert Outcome.REACHED is told.outcome
+    for visit, place in zip(visits, ((8.0, 2.5), (7.5, 7.5), START.position), strict=True):
+        assert GRAPH.cell_at(place) == GRAPH.cell_at(told.positions[told.step_at(visit.stamp)])
+    assert 0.5 > np.hypot(*(told.positions[-1] - START.position))
+    assert 0 == told.collisions
+
+
+def test_a_goal_that_is_not_reached_in_its_time_is_left_out_and_told():
+    told = driven(["kitchen", (2.5, 7.0)], time_limit=3.0)
+
+    assert Outcome.GAVE_UP is told.outcome
+    missed = "the goal was not reached within 3 s"
+    assert told.reason == f"0 of 2 goals are reached; kitchen: {missed}; 2.5,7: {missed}"
+    assert [3, 6] == [round(visit.stamp - told.steps[0].stamp) for visit in told.steps[-1].visits]
+
+
+def test_all_goals_of_a_tour_must_be_on_the_drawing():
+    with pytest.raises(RouteError, match="attic"):
+        Navigator(knowing(), ["kitchen", "attic"])
+    with pytest.raises(ValueError, match="at least one goal"):
+        Navigator(knowing(), [])
+
+
+def test_a_round_is_driven_again_and_again():
+    told = driven(Tour(("kitchen", (2.5, 2.5)), rounds=2), time_limit=60.0)
+
+    assert ["kitchen", (2.5, 2.5)] * 2 == [visit.goal for visit in told.steps[-1].visits]
+    assert Outcome.REACHED is told.outcome
+
+
+def square(left, bottom, right, top):
+    return Polyline(np.array([(left, bottom), (right, bottom), (right, top), (left, top)]), closed=True)
+
+
+def zoned(**zones):
+    atlas = replace(ATLAS, sketch=replace(SKETCH, zones=Zones(**zones)))
+    return KnowingLocalizer(atlas, START)
+
+
+def test_a_keep_out_zone_is_driven_around():
+    zone = square(2.0, 2.0, 8.0, 2.9)
+    free, told = driven((9.5, 2.5)), driven((9.5, 3.8), localizer=zoned(keep_out=(zone,)))
+    inside = [all((2.1, 2.1) <= at) and all(at <= (7.9, 2.8)) for at in free.positions]
+
+    assert any(inside)  # without the zone the way leads through it
+    assert has_arrived(told, (9.5, 3.8))
+    assert not any(all((4.0, 2.1) <= at) and all(at <= (7.9, 2.8)) for at in told.positions)
+
+
+def test_in_a_slow_zone_the_robot_drives_at_half_its_speed():
+    fast, told = driven((9.5, 2.5)), driven((9.5, 2.5), localizer=zoned(slow=(square(4.0, 1.0, 9.0, 4.0),)))
+    speeds = [
+        [step.command.linear for step, at in zip(one.steps, one.positions, strict=True) if 5.0 < at[0] < 8.0]
+        for one in (fast, told)
+    ]
+
+    assert has_arrived(told, (9.5, 2.5))
+    assert 0.8 == pytest.approx(max(speeds[0]))
+    assert 0.4 == pytest.approx(max(speeds[1]))
+
+
+def test_a_goal_in_a_keep_out_zone_is_refused():
+    with pytest.raises(RouteError, match="keep-out zone"):
+        Navigator(zoned(keep_out=(square(7.0, 2.0, 9.0, 3.0),)), (8.0, 2.5))

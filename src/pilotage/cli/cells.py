@@ -98,7 +98,7 @@ def plan(
         assert point is not None
         check_place(graph, point, what)
         ends.append(point)
-    return find_route(graph, ends[0], ends[1], settings)
+    return find_route(graph, ends[0], ends[1], settings, zones=sketch.zones)
 
 
 def describe(graph: "CellGraph") -> str:

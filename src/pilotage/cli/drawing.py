@@ -29,7 +29,7 @@ Layers = Annotated[
         "--layer",
         metavar="NAME=ROLE",
         help="What the marks of a layer, class, id or block are: wall, door, window, stairs, floor, "
-        "furniture, label, start, goal or ignore; repeat for more.",
+        "furniture, keep-out, slow, one-way, label, start, goal or ignore; repeat for more.",
         show_default="guessed",
     ),
 ]

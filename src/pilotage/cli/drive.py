@@ -140,6 +140,8 @@ def ending(recorded: "Drive") -> str:
     last, goal = recorded.steps[-1], recorded.goal
     here = name_cell(last.estimate.cell_id, recorded.graph)
     effort = f"{recorded.length:.0f} m and {clock(recorded.times[-1])} minutes"
+    if len(last.visits) > 1 and last.outcome is not Outcome.MISMATCH:
+        return f"After {effort}: {last.reason}. The robot believes to be in {here}."
     if last.outcome is Outcome.REACHED:
         where = f"in {here}" if goal.is_room else f"at the goal, in {here}"
         return f"After {effort} the robot says that it stands {where}."

@@ -8,8 +8,8 @@ import typer
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
 from pilotage.cli.exits import signals_held
-from pilotage.cli.options import GoalPlace, Scale, Seed, SettingsFile, check_positive
-from pilotage.cli.places import finite_numbers, parse_pose
+from pilotage.cli.options import GoalPlaces, Scale, Seed, SettingsFile, check_positive
+from pilotage.cli.places import parse_goals, parse_pose
 from pilotage.cli.terminal import busy, say
 from pilotage.errors import FileError
 
@@ -27,7 +27,13 @@ def navigate(
     world: Annotated[
         Path, typer.Option(help="The true building to drive in: SVG in metres, or a ROS map (YAML).")
     ],
-    goal: GoalPlace = None,
+    goal: GoalPlaces = None,
+    rounds: Annotated[
+        int, typer.Option("--rounds", min=1, help="How often all goals are visited, as on patrol.")
+    ] = 1,
+    returns: Annotated[
+        bool, typer.Option("--return", help="Drive back to where it began at the end.")
+    ] = False,
     start: Annotated[
         str | None,
         typer.Option(
@@ -50,9 +56,7 @@ def navigate(
     seed: Seed = 0,
     time_limit: Annotated[
         float | None,
-        typer.Option(
-            metavar="SECONDS", help="Simulated time after which it gives up.", show_default="as in settings"
-        ),
+        typer.Option(metavar="SECONDS", help="Simulated time for each goal.", show_default="as in settings"),
     ] = None,
     layer: Layers = None,
     label: Labels = None,
@@ -76,7 +80,8 @@ def navigate(
     the simulator knows the *world*.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
-    written in the drawing, and the drive then ends anywhere in that room.
+    written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
+    reached in its time is left out, and said.
 
     With a folder it leaves *journal.jsonl*, an object a step, with what the robot believed and did and, apart
     from it, the truth; *drive.png*, the drive on the drawing and in the world; and *drive.gif*, an animation
@@ -86,6 +91,7 @@ def navigate(
 
     - `pilotage navigate office.svg --world building.yaml --goal kitchen -o run`
     - `pilotage navigate office.svg --world building.svg --goal 310,120 --start 40,65,90 --from 2.5,3,90`
+    - Two goals, and back: `pilotage navigate office.svg --world building.svg --goal kitchen,hall --return`
     """
     check_positive(scale, "--scale")
     check_positive(time_limit, "--time-limit")
@@ -93,12 +99,13 @@ def navigate(
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     building = open_world(world)
-    target = goal_on(sketch, goal)
+    target = goals_on(sketch, goal)
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
     chosen = chosen_settings(settings, time_limit)
     from pilotage.drives import set_out
     from pilotage.maps import NotEnclosedError
+    from pilotage.navigation import Tour
     from pilotage.simulation import StartError
 
     with busy("Reading the drawing"), signals_held():
@@ -106,7 +113,7 @@ def navigate(
             navigator, simulator = set_out(
                 sketch,
                 building,
-                target,
+                Tour(tuple(target), rounds, returns),
                 start=known,
                 world_start=truly,
                 scale=scale,
@@ -128,14 +135,13 @@ def navigate(
         say(f"See {output}.")
 
 
-def goal_on(sketch: "SchematicMap", words: str | None) -> "Point | str":
-    """Read the goal as a point or a name, or take the point that the drawing marks; in the file's axes."""
+def goals_on(sketch: "SchematicMap", words: str | None) -> "list[Point | str]":
+    """Read the goals, points or names, or take the point that the drawing marks; in the file's axes."""
     if words is not None:
-        numbers = finite_numbers(words)
-        return (numbers[0], numbers[1]) if len(numbers) == 2 else words
+        return parse_goals(words, [label.text for label in sketch.labels])
     if sketch.goal is None:
         raise typer.BadParameter("a drive needs a goal, the drawing marks none", param_hint="--goal")
-    return in_file(sketch, sketch.goal)
+    return [in_file(sketch, sketch.goal)]
 
 
 def start_on(sketch: "SchematicMap", words: str | None) -> "Start | None":

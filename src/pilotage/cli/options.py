@@ -14,6 +14,15 @@ GoalPlace = Annotated[
     str | None,
     typer.Option(metavar="X,Y|LABEL", help="Where to go.", show_default="as marked in the drawing"),
 ]
+GoalPlaces = Annotated[
+    str | None,
+    typer.Option(
+        "--goal",
+        metavar="X,Y|LABEL[,...]",
+        help="Where to go; several in order, between commas.",
+        show_default="as marked in the drawing",
+    ),
+]
 StartPose = Annotated[
     str | None,
     typer.Option(

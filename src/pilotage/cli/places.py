@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.maps.routing.roadmap import Point
 
@@ -25,6 +27,27 @@ def find_place(words: str, sketch: "SchematicMap", graph: "CellGraph") -> "Point
         return find_labeled(graph, words)
     x, y = sketch.sketch_from_file(np.array([numbers]))[0].tolist()
     return x, y
+
+
+def parse_goals(words: str, labels: "Iterable[str]") -> "list[Point | str]":
+    """Read goals between commas: words of the drawing, and points as two numbers.
+
+    >>> parse_goals("kitchen, 310,120,201", ["Kitchen", "201"])
+    ['kitchen', (310.0, 120.0), '201']
+    """
+    known = {label.casefold() for label in labels}
+    if words.casefold().strip() in known:
+        return [words.strip()]
+    tokens = [token.strip() for token in words.split(",")]
+    goals: list[Point | str] = []
+    while tokens:
+        numbers = finite_numbers(",".join(tokens[:2]))
+        if len(numbers) == 2 and tokens[0].casefold() not in known:
+            goals.append((numbers[0], numbers[1]))
+            del tokens[:2]
+        else:
+            goals.append(tokens.pop(0))
+    return goals
 
 
 def parse_pose(words: str, option: str) -> tuple[float, float, float]:

@@ -1,6 +1,6 @@
 """`pilotage record`: what is believed along a log or a drive, as standard messages of ROS 2."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -67,6 +67,9 @@ def record(
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     if is_records(log):
+        refuse_for_records(
+            log, {"--start": start, "--scan-topic": scan_topic, "--odom-topic": odometry_topic}
+        )
         records = read_records(log)
         frame = MapFrame(sketch, scale_of(sketch, scale, [one["scale"] for one in records]))
         localizer = open_localizer(sketch, settings, seed, None, scale)
@@ -86,6 +89,13 @@ def record(
         write(output, frame, localizer.atlas.cell_graph, zip(beliefs, readings, strict=True))
         say(trip.summary)
     say(f"written to {output}; the frame map has {frame.scale:.6g} drawing units per metre")
+
+
+def refuse_for_records(log: Path, options: Mapping[str, object]) -> None:
+    """Raise FileError if an option is given that only a log can use."""
+    for name, value in options.items():
+        if value is not None:
+            raise FileError(f"the file holds what was believed already, {name} is for laser logs", log)
 
 
 def scale_of(sketch: "SchematicMap", given: float | None, estimated: Sequence[float]) -> float:

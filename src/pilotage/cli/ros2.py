@@ -10,7 +10,7 @@ import typer
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.exits import signals_held
 from pilotage.cli.options import Scale, Seed, SettingsFile, StartPose, check_positive
-from pilotage.cli.places import finite_numbers, parse_pose
+from pilotage.cli.places import parse_goals, parse_pose
 from pilotage.cli.terminal import busy, say
 
 if TYPE_CHECKING:
@@ -27,8 +27,13 @@ def ros2(
     drawing: Map,
     *,
     goal: Annotated[
-        str | None, typer.Option(metavar="NAME|X,Y", help="Where to drive to, on the drawing.")
+        str | None,
+        typer.Option(metavar="X,Y|LABEL[,...]", help="Where to drive to, on the drawing; several in order."),
     ] = None,
+    patrol: Annotated[bool, typer.Option("--patrol", help="Visit the goals again and again.")] = False,
+    returns: Annotated[
+        bool, typer.Option("--return", help="Drive back to where it began at the end.")
+    ] = False,
     drive: Annotated[
         bool, typer.Option("--drive", help="Send commands to the wheels; without it, none is sent.")
     ] = False,
@@ -79,11 +84,14 @@ def ros2(
     - Stand in for AMCL: `pilotage ros2 office.svg --localize-only`
     - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
     - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
+    - Patrol: `pilotage ros2 office.svg --goal kitchen,hall,store --patrol`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
     limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
     check(limits, drive=drive, localize_only=localize_only, goal=goal)
+    check_tour(goal, patrol=patrol, returns=returns)
     check_positive(scale, "--scale")
+    from pilotage.navigation import Tour
     from pilotage.ros.node import Node
     from pilotage.ros.robot import LiveRobot, Topics
 
@@ -99,8 +107,8 @@ def ros2(
         localizes_only=localize_only,
     )
     if goal is not None:
-        numbers = finite_numbers(goal)
-        refusal = session.set_goal((numbers[0], numbers[1]) if len(numbers) == 2 else goal)
+        goals = parse_goals(goal, [one.text for one in sketch.labels])
+        refusal = session.set_goal(Tour(tuple(goals), None if patrol else 1, returns))
         if refusal:
             raise typer.BadParameter(refusal, param_hint="--goal")
     robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
@@ -117,6 +125,14 @@ def check(limits: dict[str, float | None], *, drive: bool, localize_only: bool, 
             raise typer.BadParameter("it must be given to drive", param_hint=option)
     if localize_only and (drive or goal is not None):
         raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
+
+
+def check_tour(goal: str | None, *, patrol: bool, returns: bool) -> None:
+    """Reject a tour without a goal, and a return from one that never ends."""
+    if goal is None and (patrol or returns):
+        raise typer.BadParameter("it needs --goal", param_hint="--patrol" if patrol else "--return")
+    if patrol and returns:
+        raise typer.BadParameter("a patrol never ends", param_hint="--return")
 
 
 def chosen_settings(path: Path | None, limits: dict[str, float | None]) -> "Settings":

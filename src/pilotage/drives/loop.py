@@ -1,7 +1,7 @@
 """Drive a simulated robot to a goal on a drawing: read, step, move, until the drive is over."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -11,11 +11,10 @@ from pilotage.config import Settings
 from pilotage.geometry import Pose2
 from pilotage.localization import Localizer
 from pilotage.maps import Atlas, SchematicMap, check_reachable
-from pilotage.navigation import Navigator, Step, sketch_point
+from pilotage.navigation import Navigator, Place, Step, Tour, find_goal, sketch_point
 from pilotage.perception import LaserScan, Odometry
 from pilotage.simulation import Scene, Simulator, SimulatorSettings, World, find_start
 
-Point = tuple[float, float]
 Start = tuple[float, float] | tuple[float, float, float]
 
 
@@ -51,7 +50,7 @@ def drive(pilot: Pilot, simulator: Simulator) -> Iterator[Instant]:
 def set_out(
     drawing: SchematicMap | Atlas,
     world: World,
-    goal: Point | str,
+    goal: Place | Sequence[Place] | Tour,
     *,
     start: Start | None = None,
     world_start: Pose2 | None = None,
@@ -61,7 +60,8 @@ def set_out(
 ) -> tuple[Navigator, Simulator]:
     """Put a robot into a world and give it a drawing with a goal; `drive` then runs the loop.
 
-    `goal` is a name, reached anywhere in the one cell that bears it, or a point. `start`, if the robot may
+    `goal` is a name, reached anywhere in the one cell that bears it, or a point, or several of these in
+    order, or a `Tour`. `start`, if the robot may
     know it, is x, y and, if it may know that too, its heading [rad]. Points are in the drawing's own units
     and axes, headings counter-clockwise on the page; `scale` is drawing units per metre. The robot truly
     begins at `world_start`, or where the world says, or anywhere free, depending on the seed. Raises
@@ -72,7 +72,11 @@ def set_out(
     navigator = Navigator(localizer, goal, settings.navigator)
     planner = navigator.planner
     known = None if start is None else sketch_point(planner.atlas, (start[0], start[1]), "start")
-    check_reachable(planner.graph, planner.goal.point, known)
+    for place in navigator.tour.goals:
+        target = find_goal(planner.atlas, place).point
+        check_reachable(planner.graph, target, known)
+        if known is not None:
+            planner.roadmap.find(known, target)  # zones may be in the way
     return navigator, put_down(world, world_start, np.random.default_rng(seed), settings.simulator)
 
 

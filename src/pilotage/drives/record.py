@@ -12,8 +12,9 @@ import numpy as np
 from pilotage.drives.loop import Instant
 from pilotage.geometry import Array
 from pilotage.localization import Status
-from pilotage.maps import Atlas, CellGraph, SchematicMap
+from pilotage.maps import Atlas, CellGraph, SchematicMap, find_labeled
 from pilotage.navigation import Goal, Outcome, Step
+from pilotage.navigation.tour import HOME
 from pilotage.simulation import Scene, World
 
 
@@ -59,6 +60,23 @@ class Drive:
     def reason(self) -> str:
         """Why it ended, in plain words."""
         return self.steps[-1].reason
+
+    @cached_property
+    def goal_points(self) -> Array:
+        """Where the goals are that were tried, (n, 2) [drawing units, y up], the last one last."""
+        passed = [
+            find_labeled(self.graph, visit.goal)
+            if isinstance(visit.goal, str)
+            else tuple(self.sketch.sketch_from_file(np.array([visit.goal]))[0])
+            for visit in self.steps[-1].visits
+            if self.graph is not None and visit.goal != HOME
+        ]
+        return np.array([*passed, self.goal.point])
+
+    def goal_point_at(self, step: Step) -> tuple[float, float]:
+        """Return where the goal is to which the robot drives at a step [drawing units, y up]."""
+        x, y = self.goal_points[min(len(step.visits), len(self.goal_points) - 1)].tolist()
+        return x, y
 
     @property
     def collisions(self) -> int:

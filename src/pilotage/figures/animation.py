@@ -103,7 +103,8 @@ def open_stage(drive: Drive) -> tuple[Figure, Axes, Axes]:
         page.set_title(words, fontsize=style.TEXT, color=style.INK, loc="left", pad=5)
     draw_strokes(left, drive.sketch.strokes, linewidth=1.5)
     draw_labels(left, drive.sketch)
-    draw_goal(left, drive.goal.point)
+    for point in drive.goal_points.tolist():
+        draw_goal(left, point)
     draw_world(right, drive.world, linewidth=1.1)
     if drive.true_goal is not None:
         draw_goal(right, drive.true_goal)

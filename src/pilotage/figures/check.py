@@ -30,6 +30,9 @@ ROLE_COLOR = {
     Role.WINDOW: style.GLASS,
     Role.STAIRS: style.PERSON,
     Role.FURNITURE: style.GATEWAY,
+    Role.KEEP_OUT: style.ACCENT,
+    Role.SLOW: style.GOAL,
+    Role.ONE_WAY: style.TRAIL,
     Role.IGNORE: style.GRAY,
 }
 """Marks of other roles are seen in the walls, the names and the cells."""

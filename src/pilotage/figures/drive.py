@@ -75,7 +75,8 @@ def draw_believed(axes: Axes, drive: Drive) -> None:
     draw_marks(axes, drive.times, positions, located)
     if located.any():
         style.draw_ring(axes, positions[int(np.argmax(located))])
-    draw_goal(axes, drive.goal.point)
+    for point in drive.goal_points.tolist():
+        draw_goal(axes, point)
     style.draw_robot(axes, poses[-1], 0.03 * size)
 
 

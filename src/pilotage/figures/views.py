@@ -32,7 +32,8 @@ class BelievedView:
 
     def __init__(self, axes: Axes, drive: Drive) -> None:
         self.drive, self.size = drive, drive.sketch.diagonal
-        self.roads = Roadmap(drive.graph, RouteSettings()) if drive.graph is not None else None
+        zones = drive.sketch.zones
+        self.roads = Roadmap(drive.graph, RouteSettings(), zones) if drive.graph is not None else None
         positions = np.array([step.estimate.sketch_from_base.pose.position for step in drive.steps])
         found = find_stretches(drive.steps, positions, JUMP * self.size)
         self.stretches = [one for one in found if one.located]
@@ -73,7 +74,7 @@ class BelievedView:
         """Draw the cell, the gateway that is next, and the route."""
         graph = roads.graph
         self.cell.set_path(outline_of(graph.cell(step.estimate.cell_id)))
-        self.route.set_data(*route_ahead(step, roads, self.drive.goal.point).T)
+        self.route.set_data(*route_ahead(step, roads, self.drive.goal_point_at(step)).T)
         gateway = graph.gateway(step.gateway_id).segment if step.gateway_id else np.empty((0, 2))
         self.gateway.set_data(*gateway.T)
 

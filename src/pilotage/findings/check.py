@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from pilotage.findings.finding import Finding, Point, Severity
-from pilotage.findings.gaps import find_closed_gaps, find_odd_gateways
+from pilotage.findings.gaps import find_closed_gaps, find_idle_arrows, find_odd_gateways
 from pilotage.findings.page import (
     find_far_strokes,
     find_marks_left_out,
@@ -34,6 +34,7 @@ from pilotage.maps import (
     check_reachable,
     divide,
 )
+from pilotage.maps.routing.roadmap import check_allowed
 
 ORDER = tuple(Severity)
 END_KINDS = ("bad-start", "bad-goal")
@@ -94,6 +95,7 @@ def find_all(
     yield from find_names(sketch, division)
     yield from find_closed_gaps(division)
     yield from find_odd_gateways(division.graph)
+    yield from find_idle_arrows(sketch, division.graph)
     yield from find_scale(sketch, division.graph)
     if interpretation is not None:
         yield from find_marks_left_out(interpretation)
@@ -121,6 +123,7 @@ def find_bad_ends(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
     if goal is not None:
         try:
             check_reachable(graph, goal, start)
+            check_allowed(sketch.zones, goal)
         except RouteError as error:
             yield bad_end("goal", goal, str(error))
 

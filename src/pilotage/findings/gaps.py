@@ -6,9 +6,9 @@ import numpy as np
 import shapely
 
 from pilotage.findings.doors import cut, door_width
-from pilotage.findings.finding import Finding, Mend, MendKind, Severity, length_in_words
+from pilotage.findings.finding import Finding, Mend, MendKind, Severity, length_in_words, pair
 from pilotage.geometry import Array
-from pilotage.maps import CellGraph, Division
+from pilotage.maps import CellGraph, Division, SchematicMap
 
 NARROW = 0.4
 """A gap of less than this share of the usual door is a slip of the pen, an opening of less is no door."""
@@ -67,6 +67,20 @@ def find_odd_gateways(graph: CellGraph) -> Iterator[Finding]:
                 (x, y),
                 gateway.cell_ids,
                 Mend(MendKind.CLOSE, ((ax, ay), (bx, by)), "close this gap?"),
+            )
+
+
+def find_idle_arrows(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
+    """Find one-way arrows that cross no gateway: they change nothing."""
+    openings = shapely.union_all([shapely.linestrings(gateway.segment) for gateway in graph.gateways])
+    for arrow in sketch.zones.one_way:
+        if not openings.intersects(shapely.linestrings(arrow.vertices)):
+            yield Finding(
+                "idle-arrow",
+                Severity.WARNING,
+                "a one-way arrow crosses no door",
+                "draw it across the door, from the room before it into the room behind it",
+                pair(arrow.vertices[0]),
             )
 
 

@@ -18,6 +18,7 @@ from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
 from pilotage.interpretation.words import find_names
+from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
 
 GRAIN = 0.0005
@@ -106,6 +107,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
+        zones=find_zones(sheet, told),
         photo_from_sketch=sheet.photo_from_sheet,
     )
     meanings = find_meanings(

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 
 from pilotage.interpretation.sheet import Role
 
@@ -18,6 +19,20 @@ SPOKEN: Mapping[str, Role] = {
     "furniture": Role.FURNITURE,
     "ignore": Role.IGNORE,
     "ignored": Role.IGNORE,
+    "keepout": Role.KEEP_OUT,
+    "nogo": Role.KEEP_OUT,
+    "sperrzone": Role.KEEP_OUT,
+    "interdit": Role.KEEP_OUT,
+    "vietato": Role.KEEP_OUT,
+    "prohibido": Role.KEEP_OUT,
+    "slow": Role.SLOW,
+    "langsam": Role.SLOW,
+    "ralentir": Role.SLOW,
+    "lento": Role.SLOW,
+    "oneway": Role.ONE_WAY,
+    "einbahn": Role.ONE_WAY,
+    "sensunique": Role.ONE_WAY,
+    "sensounico": Role.ONE_WAY,
 }
 """The words with which a user tells this program a role; they are always believed."""
 
@@ -54,9 +69,20 @@ def words_of(name: str) -> Iterator[str]:
     yield from (word.lower() for word in WORD.findall(name))
 
 
+def spoken_words(name: str) -> Iterator[str]:
+    """Split a name into words of lower case, and pairs of these.
+
+    >>> list(spoken_words("keep-out"))
+    ['keepout', 'keep', 'out']
+    """
+    words = list(words_of(name))
+    yield from map("".join, pairwise(words))
+    yield from words
+
+
 def role_named(names: Iterable[str], inherited: Role = Role.WALL) -> Role:
-    """Tell a role by the words of this program; IGNORE is never undone."""
-    spoken = [SPOKEN[word] for name in names for word in words_of(name) if word in SPOKEN]
+    """Tell a role by the words of this program, of one part or two; IGNORE is never undone."""
+    spoken = [SPOKEN[word] for name in names for word in spoken_words(name) if word in SPOKEN]
     if inherited is Role.IGNORE or Role.IGNORE in spoken:
         return Role.IGNORE
     return spoken[0] if spoken else inherited

@@ -25,6 +25,9 @@ class Role(Enum):
     FLOOR = "floor"  # the color of a room
     FURNITURE = "furniture"
     LABEL = "label"
+    KEEP_OUT = "keep-out"  # an area in which the robot never drives
+    SLOW = "slow"  # an area in which it drives slowly
+    ONE_WAY = "one-way"  # an arrow across a gateway that is passed only this way
     START = "start"
     GOAL = "goal"
     IGNORE = "ignore"  # dimension lines, frames, symbols

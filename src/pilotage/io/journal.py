@@ -10,7 +10,7 @@ from pilotage.geometry import Pose2
 from pilotage.io.estimates import estimate_record, rounded
 from pilotage.io.files import replacing
 from pilotage.maps import SchematicMap
-from pilotage.navigation import Step
+from pilotage.navigation import Step, Visit
 from pilotage.simulation import Scene
 
 Record = dict[str, object]
@@ -22,7 +22,8 @@ def step_record(step: Step, scene: Scene, sketch: SchematicMap) -> Record:
     The estimate is written as in a file of estimates, in the drawing's own units and axes.
     `cell_probability` is the probability that the robot is in this cell, `position_std` [m] the standard
     deviation of its position. `target` is in the robot's own frame, ahead and to its left [m]. `truth` is in
-    the frame of the world [m], y up. What is unknown or infinite is null.
+    the frame of the world [m], y up. `goals` are those of a tour that are over. What is unknown or infinite
+    is null.
     """
     return {
         **estimate_record(step.estimate, sketch),
@@ -39,7 +40,19 @@ def step_record(step: Step, scene: Scene, sketch: SchematicMap) -> Record:
         "times_lost": step.times_lost,
         "outcome": None if step.outcome is None else step.outcome.value,
         "reason": step.reason,
+        "goals": [visit_record(visit) for visit in step.visits],
         "truth": {**pose_record(scene.world_from_base), "collisions": scene.collisions},
+    }
+
+
+def visit_record(visit: Visit) -> Record:
+    """Return how the drive to one goal ended."""
+    goal = visit.goal if isinstance(visit.goal, str) else list(visit.goal)
+    return {
+        "goal": goal,
+        "outcome": visit.outcome.value,
+        "stamp": round(visit.stamp, 6),
+        "reason": visit.reason,
     }
 
 

@@ -9,6 +9,7 @@ from pilotage.maps.range_table import RangeTable, RangeTableSettings
 from pilotage.maps.routing.places import check_place, check_reachable, find_labeled
 from pilotage.maps.routing.roadmap import Roadmap, Route, RouteError, RouteSettings, find_route
 from pilotage.maps.schematic import Label, SchematicMap
+from pilotage.maps.zones import Zones
 
 __all__ = [
     "Atlas",
@@ -32,6 +33,7 @@ __all__ = [
     "RouteError",
     "RouteSettings",
     "SchematicMap",
+    "Zones",
     "build_atlas",
     "check_place",
     "check_reachable",

@@ -1,12 +1,13 @@
 """A drawing of a building, as a person made it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Homography, Polyline, segments_of
 from pilotage.maps.file_axes import FileAxes
+from pilotage.maps.zones import Zones
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ class SchematicMap:
     contours: bool = False  # whether the strokes are contours of free space, as in filled plans, not of a pen
     solids: tuple[Polyline, ...] = ()  # rings of thick walls, by the even-odd rule
     metres_per_unit: float | None = None  # what the file says of its scale; localization does not use it
+    zones: Zones = field(default_factory=Zones)  # where not to drive, or only in one way
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
 
     def __post_init__(self) -> None:
@@ -70,22 +72,25 @@ class SchematicMap:
 
     def mirrored(self) -> "SchematicMap":
         """Return the mirror image, left for right; places are told in the axes of the same file."""
-        left, _, right, _ = self.bounds
+        (left, _, right, _), zones = self.bounds, self.zones
         mirror = Homography(((-1.0, 0.0, left + right), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         photo = (
             Homography.from_matrix(np.eye(3)) if self.photo_from_sketch is None else self.photo_from_sketch
         )
 
-        def carried(line: Polyline) -> Polyline:  # free space stays on its left
-            return Polyline(mirror.points(line.vertices[::-1]), line.closed)
+        def carried(line: Polyline) -> Polyline:
+            return Polyline(mirror.points(line.vertices), line.closed)
 
         def moved(point: tuple[float, float]) -> tuple[float, float]:
             return left + right - point[0], point[1]
 
         return replace(
             self,
-            strokes=tuple(map(carried, self.strokes)),
-            solids=tuple(map(carried, self.solids)),
+            strokes=tuple(carried(line).reversed() for line in self.strokes),  # free space stays on the left
+            solids=tuple(carried(line).reversed() for line in self.solids),
+            zones=Zones(
+                *(tuple(map(carried, lines)) for lines in (zones.keep_out, zones.slow, zones.one_way))
+            ),
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),

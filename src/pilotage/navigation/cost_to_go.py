@@ -68,4 +68,5 @@ def cost_to_go(atlas: Atlas, roadmap: Roadmap, goal: Point, blocked: Collection[
             costs[inside] = np.minimum(costs[inside], cost)
             in_sight = np.where(table.sees(inside, point), np.minimum(in_sight, cost), in_sight)
         costs[inside] = np.where(np.isfinite(in_sight), in_sight, costs[inside])
+    costs[roadmap.zones.are_kept_out(table.middles)] = np.inf
     return CostToGo(table, costs)

@@ -8,7 +8,7 @@ import shapely
 
 from pilotage.localization import Estimate
 from pilotage.maps import Atlas, CellGraph, NotEnclosedError, check_place, find_labeled
-from pilotage.maps.routing.roadmap import Point
+from pilotage.maps.routing.roadmap import Point, check_allowed
 
 CLEAR_OF_GATEWAY = 0.5
 """Distance [m] from all gateways of a room at which the robot is in it and out of the way of others."""
@@ -43,16 +43,15 @@ def find_goal(atlas: Atlas, goal: Point | str) -> Goal:
     """Find a goal on a drawing: a name, or a point in the drawing's own units and axes.
 
     Raises NotEnclosedError if the drawing has no cells, RouteError if the name stands in no cell or in more
-    than one, or if the point lies outside all cells, ValueError if the point is not finite.
+    than one, or if the point lies outside all cells or in a keep-out zone, ValueError if the point is not
+    finite.
     """
     graph = atlas.cell_graph
     if graph is None:
         raise NotEnclosedError("a drawing to drive by must enclose free space, it has no closed room")
-    if isinstance(goal, str):
-        point = find_labeled(graph, goal)
-        return Goal(point, graph.cell_at(point), goal)
-    x, y = sketch_point(atlas, goal, "goal")
-    return Goal((x, y), graph.cell_at((x, y)))
+    point = find_labeled(graph, goal) if isinstance(goal, str) else sketch_point(atlas, goal, "goal")
+    check_allowed(atlas.sketch.zones, point)
+    return Goal(point, graph.cell_at(point), goal if isinstance(goal, str) else "")
 
 
 def sketch_point(atlas: Atlas, point: Point, what: str) -> Point:

@@ -5,7 +5,8 @@ robot leaves behind is forgotten.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,6 +26,9 @@ CLEARANCE = 0.03
 
 EASY = 0.35
 """Distance of the footprint from obstacles [m] from which on driving costs no more than in the open."""
+
+BLOCK = 4
+"""Cells to the side of a block that is closed or not as one: 20 cm."""
 
 LARGEST_RADIUS = 0.6
 """Radius of a robot [m] up to which clearances are measured."""
@@ -92,6 +96,15 @@ class LocalGrid:
     def middles(self, cells: NDArray[np.int64]) -> Array:
         """Return the middles of cells (n, 2) in odom, (n, 2) [m]."""
         return np.asarray((cells + self.corner + 0.5) * self.cell)
+
+    def without(self, are_closed: Callable[[Array], NDArray[np.bool_]]) -> "LocalGrid":
+        """Enter as obstacles what a test of points (n, 2) in odom [m] closes; it is asked once a `BLOCK`."""
+        count = -(-len(self.evidence) // BLOCK)
+        blocks = np.stack(np.meshgrid(np.arange(count), np.arange(count), indexing="ij"), axis=-1)
+        middles = self.middles(BLOCK * blocks.reshape(-1, 2) + BLOCK // 2)
+        closed = are_closed(middles).reshape(count, count).repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
+        closed = closed[: len(self.evidence), : len(self.evidence)]
+        return replace(self, evidence=np.where(closed, np.int8(1), self.evidence))
 
     @cached_property
     def clearances(self) -> NDArray[np.float32]:

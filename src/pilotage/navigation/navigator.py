@@ -1,15 +1,20 @@
 """Scan in, command out: drives a robot to a goal on a drawing (Wolter 2001, section 4.2)."""
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from pilotage.errors import PilotageError
 from pilotage.geometry import Twist
 from pilotage.localization import Localizer, Status
+from pilotage.maps import RouteError
 from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.behaviors import make_plan
 from pilotage.navigation.dead_reckoning import DeadReckoning
+from pilotage.navigation.goal import find_goal
 from pilotage.navigation.local_grid import LocalGrid
 from pilotage.navigation.memory import PLAN_EVERY, Memory
 from pilotage.navigation.plan import Plan
@@ -17,7 +22,8 @@ from pilotage.navigation.planner import RoutePlanner
 from pilotage.navigation.settings import NavigatorSettings
 from pilotage.navigation.situation import Situation
 from pilotage.navigation.steering import steer, turn_on_the_spot
-from pilotage.navigation.step import Behavior, Step
+from pilotage.navigation.step import Behavior, Outcome, Place, Step
+from pilotage.navigation.tour import HOME, Tour, tour_of
 from pilotage.perception import LaserScan, Odometry
 
 TURNING = 0.7
@@ -25,6 +31,9 @@ TURNING = 0.7
 
 BEHIND = 0.1
 """Obstacles less far ahead than this [m] are taken from the grid: a scanner may not see backwards."""
+
+SLOWLY = 0.5
+"""Share of its fastest speed at which the robot drives in a slow zone."""
 
 SEEING = 0.05
 """Share of beams that return below which a far-seeing scanner counts as blind: it is covered, or broken."""
@@ -37,25 +46,34 @@ WAITING = 0.05
 
 
 class Navigator:
-    """Drives to a goal: anywhere in the room of this name, or a point in the drawing's own units and axes.
+    """Drives to a goal, or to several in order.
 
-    Raises RouteError if the goal cannot be reached on this drawing, NotEnclosedError if the drawing has no
-    cells, ValueError if the point is not finite.
+    A goal is the name of a room, reached anywhere in it, or a point in the drawing's own units and axes; a
+    `Tour` holds several, and can go round and return. The time limit is that of each goal. Raises RouteError
+    if a goal cannot be reached on this drawing, NotEnclosedError if the drawing has no cells, ValueError if a
+    point is not finite.
     """
 
     def __init__(
-        self, localizer: Localizer, goal: Point | str, settings: NavigatorSettings | None = None
+        self,
+        localizer: Localizer,
+        goal: Place | Sequence[Place] | Tour,
+        settings: NavigatorSettings | None = None,
     ) -> None:
         self.settings = settings if settings is not None else NavigatorSettings()
-        self.planner = RoutePlanner(localizer.atlas, goal, self.settings.route)
+        self.tour = tour_of(goal)
+        self.planner = self._first_planner(localizer)
+        self.zones = localizer.atlas.sketch.zones
         self.position = DeadReckoning(localizer)
         self.local_grid = LocalGrid.unknown()
         self.memory: Memory | None = None  # before the first scan
         self.plan = Plan(Behavior.LOOK_AROUND)
+        self.home: Point | None = None  # where the drive began, once that is known; in the drawing's own axes
 
     def step(self, scan: LaserScan, odometry: Odometry) -> Step:
         """Take one scan in, give one command out."""
         self.position.update(scan, odometry)  # which cell, and where in it
+        self._find_home()
         self.local_grid = self.local_grid.seen(scan, self.position.odom_from_base)
         if self.memory is None:
             self.memory = Memory.at_start(scan, self.position.localized)
@@ -63,18 +81,67 @@ class Navigator:
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
             situation = self._situation(scan.stamp, self.memory)
             self.memory = situation.memory
-            self.plan = make_plan(situation)
+            plan = make_plan(situation)
+            self.plan = plan if plan.outcome is None else self._go_on(plan)
         return self._report(scan, *self._command(scan))
 
-    def set_goal(self, goal: Point | str) -> None:
+    def set_goal(self, goal: Place | Sequence[Place] | Tour) -> None:
         """Drive elsewhere from now on; what is believed and what was found blocked is kept.
 
         Raises as the constructor does, and then the old goal stays.
         """
-        self.planner = RoutePlanner(self.position.localizer.atlas, goal, self.settings.route)
-        if self.memory is not None:
-            self.memory = self.memory.for_new_goal(max(self.plan.stamp, self.memory.began))
+        before, self.tour = self.tour, tour_of(goal)
+        try:
+            self.planner = self._first_planner(self.position.localizer)
+        except (PilotageError, ValueError):
+            self.tour = before
+            raise
+        self._forget(self.plan.stamp)
         self.plan = Plan(Behavior.LOOK_AROUND)
+
+    def _first_planner(self, localizer: Localizer) -> RoutePlanner:
+        """Look all goals up on the drawing, and return the planner of the first."""
+        first, *others = self.tour.goals
+        planner = RoutePlanner(localizer.atlas, first, self.settings.route)
+        for goal in others:
+            find_goal(localizer.atlas, goal)
+        return planner
+
+    def _go_on(self, plan: Plan) -> Plan:
+        """Drive to the next goal of the tour, or end it; `plan` ended the drive to the goal of now."""
+        assert plan.outcome is not None
+        self.tour = self.tour.after(plan.outcome, plan.stamp, plan.reason)
+        while not self.tour.is_over:
+            try:
+                self.planner = self._planner_of(self.tour.goal)
+            except (PilotageError, ValueError) as error:  # no way back
+                self.tour = self.tour.after(Outcome.GAVE_UP, plan.stamp, str(error))
+            else:
+                self._forget(plan.stamp)
+                return Plan(Behavior.REST, plan.stamp)
+        return replace(plan, outcome=self.tour.outcome, reason=self.tour.reason)
+
+    def _planner_of(self, goal: Place) -> RoutePlanner:
+        """Plan routes to one goal."""
+        if goal == HOME:
+            if self.home is None:
+                raise RouteError("where the drive began is not known")
+            goal = self.home
+        return RoutePlanner(self.position.localizer.atlas, goal, self.settings.route)
+
+    def _forget(self, stamp: float) -> None:
+        """Begin the drive to a new goal at a time [s]."""
+        if self.memory is not None:
+            self.memory = self.memory.for_new_goal(max(stamp, self.memory.began))
+
+    def _find_home(self) -> None:
+        """Tell where the drive began, as soon as the robot knows where it is."""
+        estimate = self.position.localized
+        if self.home is None and estimate.status is Status.LOCATED:
+            began = self.position.odom_from_base.inverse() @ self.position.trail[:1]
+            sketch = self.position.localizer.atlas.sketch
+            x, y = sketch.file_from_sketch(self.position.estimate.sketch_from_base @ began)[0].tolist()
+            self.home = x, y
 
     def _is_due(self, stamp: float, memory: Memory) -> bool:
         """Tell whether to plan now; not at a scan that the localizer got, if that can wait."""
@@ -99,12 +166,22 @@ class Navigator:
             position.turned,
             position.trail,
             self.local_grid,
-            self.local_grid.reachable_set(self.settings.radius),
+            self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
             memory,
             self.planner,
             leg,
             position.localizer.sample,
             self.settings,
+        )
+
+    def _allowed_grid(self, *, knows: bool) -> LocalGrid:
+        """Enter keep-out zones as obstacles where they are believed to be, unless the robot is in one."""
+        zones, sketch_from_base = self.zones, self.position.estimate.sketch_from_base
+        if not (knows and zones.keep_out) or zones.are_kept_out(sketch_from_base.translation[np.newaxis])[0]:
+            return self.local_grid
+        base_from_odom = self.local_grid.odom_from_base.inverse()
+        return self.local_grid.without(
+            lambda points: zones.are_kept_out(sketch_from_base @ (base_from_odom @ points))
         )
 
     def _command(self, scan: LaserScan) -> tuple[Twist, Behavior]:
@@ -121,6 +198,8 @@ class Navigator:
         passed = int(np.hypot(path[:, 0], path[:, 1]).argmin())
         remembered = base_from_odom @ self.local_grid.obstacles
         obstacles = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < BEHIND]])
+        if self.zones.is_slow(self.position.estimate.sketch_from_base.translation):
+            steering = replace(steering, speed=SLOWLY * steering.speed)
         command = steer(path[passed:], obstacles, self.settings.radius, steering, twist, sight=scan.range_max)
         waits = command.linear == 0.0 and abs(command.angular) < WAITING
         return command, Behavior.WAIT if waits else plan.behavior
@@ -145,6 +224,7 @@ class Navigator:
             times_lost=self.position.times_lost,
             outcome=plan.outcome,
             reason=plan.reason,
+            visits=self.tour.visits,
         )
 
 

@@ -19,7 +19,7 @@ class RoutePlanner:
         self.goal = find_goal(atlas, goal)
         assert atlas.cell_graph is not None  # else there is no goal
         self.graph = atlas.cell_graph
-        self.roadmap = Roadmap(self.graph, settings)
+        self.roadmap = Roadmap(self.graph, settings, atlas.sketch.zones)
         self._cost_to_go = lru_cache(maxsize=1)(self._find_costs)
 
     def leg(self, estimate: Estimate, blocked: BlockedGateways) -> tuple[RouteLeg | None, BlockedGateways]:

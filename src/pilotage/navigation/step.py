@@ -5,6 +5,10 @@ from enum import Enum
 
 from pilotage.geometry import Twist
 from pilotage.localization import Estimate
+from pilotage.maps.routing.roadmap import Point
+
+Place = Point | str
+"""A goal: a point in the drawing's own units and axes, or the name of a room."""
 
 
 class Behavior(Enum):
@@ -29,6 +33,16 @@ class Outcome(Enum):
 
 
 @dataclass(frozen=True, slots=True)
+class Visit:
+    """How the drive to one goal ended."""
+
+    goal: Place
+    outcome: Outcome
+    stamp: float  # [s]
+    reason: str  # in plain words
+
+
+@dataclass(frozen=True, slots=True)
 class Step:
     """The command to the wheels, and what was believed when it was given."""
 
@@ -44,3 +58,4 @@ class Step:
     times_lost: int = 0  # how often the place was lost after it had been found
     outcome: Outcome | None = None  # None while the drive goes on
     reason: str = ""  # why it ended, in plain words
+    visits: tuple[Visit, ...] = ()  # the goals that are over, in order

@@ -8,7 +8,7 @@ from pilotage.geometry import Pose2, Twist
 from pilotage.io.bags.belief import Belief, MapFrame, known_scale
 from pilotage.localization import Estimate, Localizer, LocalizerSettings
 from pilotage.maps import Atlas
-from pilotage.navigation import Navigator, NavigatorSettings, Step
+from pilotage.navigation import Navigator, NavigatorSettings, Step, Tour
 from pilotage.navigation.dead_reckoning import DeadReckoning
 from pilotage.perception import LaserScan, Odometry, Reading
 
@@ -20,7 +20,7 @@ SETTLED = 0.9
 OTHER_SCALE = 0.02
 """Share by which a scale must differ for the frame `map` to be changed."""
 
-Goal = str | tuple[float, float]
+Goal = str | tuple[float, float] | Tour
 
 
 @dataclass(frozen=True, eq=False)

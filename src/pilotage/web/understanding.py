@@ -87,7 +87,7 @@ def describe_route(page: Page, graph: CellGraph, ends: tuple[Place, Place]) -> J
         x, y = page.sketch.sketch_from_file(np.array([page.file_point(*place)]))[0].tolist()
         check_place(graph, (x, y), what)
         points.append((x, y))
-    route = find_route(graph, points[0], points[1], Settings().navigator.route)
+    route = find_route(graph, points[0], points[1], Settings().navigator.route, zones=page.sketch.zones)
     return {
         "cells": list(route.cell_ids),
         "gateways": list(route.gateway_ids),
