@@ -167,7 +167,7 @@ def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
                 "stairs-room",
                 Severity.NOTE,
                 f"{named(cell)} counts as a room that a robot may drive in",
-                "if it may not, draw its steps on a layer named 'stairs', or outline it on one named 'keep-out'",
+                "if it may not, outline it on a layer named 'keep-out'",
                 cell.center,
                 (cell.cell_id,),
             )
