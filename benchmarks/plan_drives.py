@@ -32,7 +32,7 @@ from benchmarks.lib.arguments import add_jobs, positive
 from benchmarks.lib.data import DATA
 from benchmarks.lib.hand_copies import copy_by_hand, save_photo, single_lines
 from benchmarks.lib.results import Figures
-from benchmarks.lib.tables import number, table
+from benchmarks.lib.tables import number, prose, table
 from pilotage.config import Settings
 from pilotage.drives import Drive, navigate
 from pilotage.errors import PilotageError
@@ -284,4 +284,15 @@ def render(figures: Figures) -> str:
         )
         for name, row in figures.items()
     ]
-    return table(("plan", "reached by the file", "by a photo of a hand copy", "collisions"), rows)
+    return "\n".join(
+        [
+            prose(
+                "A world is made of what is understood of a plan of others, with other proportions, furniture"
+                " and people. The robot is told nothing and is sent to another room, by the file and by a"
+                " photo of a copy of its rooms that a program drew as by hand. It has reached its goal if it"
+                " stopped of its own accord in that room."
+            ),
+            "",
+            table(("plan", "reached by the file", "by a photo of a hand copy", "collisions"), rows),
+        ]
+    )
