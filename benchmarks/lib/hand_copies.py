@@ -100,7 +100,7 @@ def single_lines(graph: CellGraph, cells: Sequence[Cell], metres_per_unit: float
     return with_dense_control(Plan(strokes, Rooms(names, tuple(map(largest, grown))), Warp(corners, corners)))
 
 
-def grow(rooms: Sequence[shapely.Polygon]) -> list[shapely.Geometry]:
+def grow(rooms: Sequence[shapely.Polygon]) -> list[shapely.MultiPolygon]:
     """Let rooms [m] grow until they meet in the middle of the walls between them."""
     shrunk = [shapely.segmentize(room.buffer(-SEAM), SPACING) for room in rooms]
     owners = np.repeat(np.arange(len(rooms)), [shapely.get_num_coordinates(room) for room in shrunk])
@@ -115,7 +115,12 @@ def grow(rooms: Sequence[shapely.Polygon]) -> list[shapely.Geometry]:
     owner_of[at] = owners[inside]
     whole = [shapely.union_all(pieces[owner_of == k], grid_size=GRID) for k in range(len(rooms))]
     smooth = shapely.buffer(shapely.coverage_simplify(whole, SMOOTH), 0.0)  # valid
-    return list(shapely.intersection(smooth, floor, grid_size=GRID))
+    return list(map(areas_of, shapely.intersection(smooth, floor, grid_size=GRID)))
+
+
+def areas_of(geometry: shapely.Geometry) -> shapely.MultiPolygon:
+    """Leave out what has no area."""
+    return shapely.MultiPolygon([part for part in shapely.get_parts(geometry) if part.area > 0.0])
 
 
 def largest(geometry: shapely.Geometry) -> shapely.Polygon:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from benchmarks.lib.hand_copies import copy_by_hand, save_photo, single_lines
+from benchmarks.lib.hand_copies import areas_of, copy_by_hand, save_photo, single_lines
 from benchmarks.plan_drives import joined_cells, rooms_of
 
 from buildings import CORRIDOR_AND_FOUR_ROOMS
@@ -44,6 +44,15 @@ def test_rooms_grow_until_they_meet(graph, lines):
 
     assert shapely.union_all(lines.rooms.polygons).area == pytest.approx(total, rel=1e-3)
     assert total > UNIT**2 * sum(cell.polygon.area for cell in graph.cells)
+
+
+def test_every_room_is_drawn_whatever_its_walls_are_cut_to(graph, lines):
+    mixed = shapely.GeometryCollection([shapely.box(0, 0, 2, 1), shapely.LineString([(2, 0), (5, 0)])])
+
+    assert areas_of(mixed).boundary.equals(shapely.box(0, 0, 2, 1).boundary)
+    outlines = shapely.union_all([room.exterior for room in lines.rooms.polygons])
+    doors = sum(UNIT * gateway.width for gateway in graph.gateways)
+    assert shapely.length(lines.strokes) == pytest.approx(outlines.length - doors, rel=0.02)
 
 
 def test_a_copy_by_hand_can_be_read_from_its_photo(graph, lines, tmp_path):
