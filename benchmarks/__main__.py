@@ -35,6 +35,7 @@ NAMES = (
     "segmentation",
     "cells",
     "plans",
+    "plan_drives",
     "logs",
     "ros",
     "mpeg7",

@@ -48,6 +48,15 @@ def test_a_room_without_a_door_is_a_warning_with_its_place(pilotage, drawing):
     assert {"file", "cells", "gateways", "marks", "assumed", "findings"} == set(content)
 
 
+def test_the_names_under_which_walls_are_drawn_are_listed(pilotage, drawing):
+    shelf = '<path d="M10,0 V10 H20 V0"/><path d="M30,0 V10 H40 V0"/>'
+    told = pilotage("check", drawing(shelf)).out
+    without = pilotage("check", drawing(shelf), "--layer", "A-ODD=furniture").out
+
+    assert "walls by name, for --layer: 'A-ODD' (2)" in told
+    assert "walls by name" not in without
+
+
 def test_a_goal_that_cannot_be_used_fails(pilotage, drawing):
     assert 1 == pilotage("check", drawing(), "--goal", "900,900").code
     assert 0 == pilotage("check", drawing(), "--goal", "120,20").code

@@ -22,6 +22,22 @@ def test_the_right_building_comes_first(pilotage, tmp_path):
     assert "left out" in outcome.err
 
 
+@pytest.mark.slow
+def test_a_mirrored_drawing_is_told(pilotage, tmp_path):
+    content = worlds.OFFICE.careful.read_text(encoding="utf-8")
+    opening = content.index(">", content.index("<svg")) + 1
+    flipped = tmp_path / "flipped.svg"
+    flipped.write_text(
+        f'{content[:opening]}<g transform="scale(-1,1)">{content[opening:].replace("</svg>", "</g></svg>")}',
+        encoding="utf-8",
+    )
+    lines = pilotage("which", flipped, worlds.LOG, "--mirrored", "--travel", "25").out.splitlines()
+
+    assert 2 == len(lines)
+    assert lines[0].endswith("flipped.svg, mirrored")
+    assert lines[1].endswith("flipped.svg")
+
+
 @pytest.mark.parametrize("words", [(worlds.LOG,), (worlds.OFFICE.careful,)])
 def test_a_drawing_and_a_log_are_needed(pilotage, words):
     outcome = pilotage("which", *words)

@@ -13,6 +13,7 @@ import pilotage
 from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage import worlds
 from pilotage.findings import MendKind, Severity, for_ends, report, worst
+from pilotage.findings.doors import suggest_door
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import Label, SchematicMap
@@ -36,6 +37,7 @@ def kinds(sketch):
 
 GOOD = drawing(*CORRIDOR_AND_FOUR_ROOMS)
 DOOR_OF_BEN = ([(14, 5), (15, 5)],)
+DOORS_OF_THREE = (*DOOR_OF_BEN, [(4, 5), (5, 5)], [(4, 7), (5, 7)])
 
 
 def test_nothing_is_wrong_with_a_good_drawing():
@@ -59,6 +61,29 @@ def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():
     ends = np.array(found.mend.segment)
     assert np.hypot(*(ends[1] - ends[0])) == pytest.approx(1.0, rel=0.3)
     assert shapely.LineString(ends).distance(shapely.box(10, 0, 20, 5).exterior) < 0.1
+
+
+def test_a_room_whose_only_door_leads_out_of_the_drawing_is_told_so():
+    shell = [[(14, 0), (0, 0), (0, 12), (20, 12), (20, 0), (15, 0)]]
+    found = kinds(drawing(*shell, *CORRIDOR_AND_FOUR_ROOMS[1:], *DOOR_OF_BEN))["room-without-door"]
+    closed = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))["room-without-door"]
+
+    assert "no door leads into 'Ben', except from outside of what is drawn" == found.text
+    assert "no door leads into 'Ben'" == closed.text
+
+
+def test_a_door_is_suggested_where_one_is_drawn():
+    room = shapely.box(10, 0, 20, 5)
+    neighbors = [shapely.box(0, 0, 10, 5), shapely.box(10, 5, 20, 7)]
+    graph = report(GOOD).graph
+
+    anywhere = suggest_door(room, neighbors, graph)
+    drawn = suggest_door(room, neighbors, graph, np.array([(9.0, 1.5), (30.0, 30.0)]))
+    far = suggest_door(room, neighbors, graph, np.array([(15.0, 2.5)]))
+
+    assert np.mean(anywhere.segment, axis=0) == pytest.approx((15.0, 5.0))
+    assert np.mean(drawn.segment, axis=0) == pytest.approx((10.0, 1.5))
+    assert far == anywhere
 
 
 def test_labels_outside_of_rooms_are_told_in_one_finding():
@@ -85,6 +110,46 @@ def test_two_buildings_on_one_sheet_are_told():
 
     assert Severity.WARNING is found["two-buildings"].severity
     assert 5 == len(found["two-buildings"].cell_ids)
+
+
+def test_parts_that_only_a_wall_divides_are_one_building():
+    moved = [[(x + 20.3, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
+    found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
+
+    assert "two-buildings" not in found
+    assert 5 == len(found["unreachable"].cell_ids)
+
+
+def test_a_part_behind_another_part_is_of_the_same_building():
+    moved = [[(x + 20.3 * k, y) for x, y in stroke] for k in (1, 2) for stroke in CORRIDOR_AND_FOUR_ROOMS]
+
+    assert "two-buildings" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
+
+
+def test_a_drawing_whose_doors_are_closed_is_said_to_be_in_pieces_first():
+    found = pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOORS_OF_THREE))
+
+    assert "in-pieces" == found[0].kind
+    assert "doors join only 2 of 5 rooms" == found[0].text
+    assert "in-pieces" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))
+
+
+def test_named_rooms_among_many_without_a_name_are_said_to_be_cut():
+    halves = [[(x + 20, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
+    both = drawing(*CORRIDOR_AND_FOUR_ROOMS, *halves, [(20, 0), (20, 12)], labels=NAMES[:3])
+
+    assert "7 of 10 rooms have no name" in kinds(both)["cut-rooms"].text
+    assert "cut-rooms" not in kinds(replace(GOOD, labels=NAMES[:3]))
+
+
+def test_rooms_called_stairs_that_a_robot_may_drive_into_are_told():
+    named = replace(GOOD, labels=(*NAMES[1:], Label("Lift 2", (5.0, 2.0))))
+    found = kinds(named)["stairs-room"]
+
+    assert ("lift-2",) == found.cell_ids
+    closed = kinds(replace(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN), labels=named.labels))
+    assert "'Lift 2'" in closed["stairs-room"].text
+    assert "stairs-room" not in kinds(GOOD)
 
 
 def test_a_wing_without_a_way_to_it_is_told_with_a_door():

@@ -8,6 +8,7 @@ import json
 import os
 import resource
 import select
+import signal
 import subprocess
 import sys
 import time
@@ -21,6 +22,9 @@ ROOT = Path(__file__).resolve().parents[2]
 
 SECONDS = 10.0
 """The longest that a hostile file may take."""
+
+PATIENCE = 20.0
+"""How many times longer it may take by the clock, on a machine that does other things too."""
 
 MEGABYTES = 1_000.0
 """The most memory that the process may take, libraries included."""
@@ -65,12 +69,13 @@ class Worker:
         process.stdin.write(os.fsencode(path) + b"\n")
         process.stdin.flush()
         began = time.monotonic()
-        ready, _, _ = select.select([process.stdout], [], [], 2.0 * SECONDS)
+        ready, _, _ = select.select([process.stdout], [], [], PATIENCE * SECONDS)
         line = process.stdout.readline() if ready else b""
         took = time.monotonic() - began
         if not line:
             self.stop()
-            return Verdict(path.name, "hangs" if not ready else "kills the process", took, 0.0)
+            hangs = not ready or process.returncode == -signal.SIGPROF
+            return Verdict(path.name, "hangs" if hangs else "kills the process", took, 0.0)
         answer = json.loads(line)
         outcome = answer.pop("outcome")
         if answer["seconds"] > SECONDS:
@@ -110,7 +115,9 @@ def serve() -> None:
     print("ready", file=answers, flush=True)
     for line in sys.stdin:
         began = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, 2.0 * SECONDS)  # of the processor; it ends the process
         outcome, detail = outcome_of(Path(line.rstrip("\n")))
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
         answer = {
             "outcome": outcome,
             "detail": detail,

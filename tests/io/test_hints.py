@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from pilotage.errors import FileError
 from pilotage.interpretation import Role
-from pilotage.io import open_map
+from pilotage.io import maps, open_map
 from pilotage.io.hints import DrawingHints, read_hints, table_beside
 from pilotage.io.raster import Shading
 
@@ -97,3 +97,16 @@ def test_hints_can_be_given_in_python(tmp_path):
     assert [("hall", (20.0, -30.0))] == [(label.text, label.position) for label in sketch.labels]
     with pytest.raises(ValueError, match="must be one of"):
         open_map(path, layers={"odd": "sofa"})
+
+
+def test_a_drawing_of_too_many_pieces_tells_which_layers_have_most(tmp_path, monkeypatch):
+    monkeypatch.setattr(maps, "MOST_PIECES", 5)
+    plan = tmp_path / "plan.svg"
+    walls = "".join(f'<path d="M{x},0 V80"/>' for x in range(0, 80, 20))
+    plan.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" fill="none" stroke="black">'
+        f'<rect id="shell" width="60" height="80"/><g id="shelves">{walls}</g></svg>'
+    )
+
+    with pytest.raises(FileError, match=r"found 8; .* \(most are named 'shelves' \(8\), 'shell' \(4\)\)"):
+        open_map(plan)

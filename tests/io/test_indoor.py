@@ -57,6 +57,13 @@ def test_doors_open_the_walls(tmp_path):
     assert length(closed) - length(opened) == pytest.approx(1.2, abs=0.02)
 
 
+def test_a_room_with_a_number_beyond_all_numbers_is_left_out(tmp_path):
+    broken = feature(NEXT, indoor="room")
+    broken["geometry"]["coordinates"][0][1][1] = 10**400
+    sheet = read(tmp_path, feature(BOX, indoor="room"), broken)
+    assert length(sheet) == pytest.approx(14.0, abs=0.01)
+
+
 def test_corridors_run_into_each_other(tmp_path):
     sheet = read(tmp_path, feature(BOX, indoor="corridor"), feature(NEXT, indoor="corridor"))
     assert length(sheet) == pytest.approx(2 * (8 + 3), abs=0.01)

@@ -105,6 +105,14 @@ def test_a_label_must_stand_in_one_cell():
         find_labeled(graph, "kitchen")
 
 
+def test_a_room_without_a_name_of_its_own_is_called_by_its_id():
+    graph = decomposed(*SUITE, labels=(Label("WC", (1.0, 1.0)), Label("WC", (7.0, 1.0))))
+
+    assert "wc-2" == graph.cell_at(find_labeled(graph, "wc-2"))
+    with pytest.raises(RouteError, match="stands in 2 cells"):
+        find_labeled(graph, "wc")
+
+
 def test_a_place_must_be_free():
     graph = decomposed(*RING)
 

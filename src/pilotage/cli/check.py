@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 OF_A_KIND = 3
 """So many findings of a kind are listed; --json lists all."""
 
+MOST_NAMES = 8
+"""So many names of walls are listed, those with most marks; a name of one mark, or of all, is no layer."""
+
 
 def check(
     drawing: Map,
@@ -129,13 +132,24 @@ def marks_in_words(found: "Report") -> list[str]:
     """Say what the marks were taken for and why, the most frequent first."""
     if found.interpretation is None:
         return []
+    from pilotage.interpretation import Role
+
     meanings = found.interpretation.meanings
     lines = []
     for role, count in Counter(meaning.role for meaning in meanings).most_common():
         reasons = Counter(meaning.reason for meaning in meanings if meaning.role is role)
         told = ", ".join(f"{reason} ({number})" for reason, number in reasons.most_common(3))
         lines.append(f"{count} mark{'s' * (count != 1)} {role.value}: {told}")
-    return lines
+    names = Counter(
+        name
+        for mark, meaning in zip(found.interpretation.sheet.marks, meanings, strict=True)
+        if meaning.role is Role.WALL
+        for name in set(mark.names)
+    )
+    walls = sum(meaning.role is Role.WALL for meaning in meanings)
+    telling = [(name, count) for name, count in names.most_common() if 1 < count < walls]
+    common = [f"{name!r} ({count})" for name, count in telling[:MOST_NAMES]]
+    return [*lines, f"walls by name, for --layer: {', '.join(common)}"] if common else lines
 
 
 def json_of(found: "Report", remarks: tuple[str, ...]) -> dict[str, object]:

@@ -46,7 +46,10 @@ class Trip:
         final = self.final
         if final is None:
             return f"{count}."
-        misfit = f"this drawing does not seem to be of this building (fit {final.fit:.2f})"
+        misfit = (
+            f"this drawing does not seem to be of this building (fit {final.fit:.2f});"
+            " `pilotage which` with --mirrored tells whether it is mirrored"
+        )
         if not self.located:
             return f"{count}: lost in all of them{f'; {misfit}' if final.status is Status.MISMATCH else ''}."
         end = {

@@ -19,12 +19,16 @@ TRAVEL = 40.0
 ATTEMPTS = 3
 """How often a drawing is tried if the process that tries it is killed."""
 
+Task = tuple[Path, bool]
+"""A drawing, and whether it is tried as in a mirror."""
+
 
 @dataclass(frozen=True, slots=True)
 class Score:
     """What one drawing tells about one log."""
 
     drawing: Path
+    is_mirrored: bool
     log_evidence: float  # over that of any building
     place: str
     probability: float
@@ -37,6 +41,9 @@ def which(
     *,
     travel: Annotated[float, typer.Option(metavar="M", help="Metres of each log to look at.")] = TRAVEL,
     jobs: Annotated[int, typer.Option(min=1, help="Processes to use.")] = 2,
+    mirrored: Annotated[
+        bool, typer.Option("--mirrored", help="Try each drawing as in a mirror, too.")
+    ] = False,
     seed: Seed = 0,
 ) -> None:
     """Rank drawings by how well they explain a log.
@@ -45,10 +52,14 @@ def which(
     of the drawing's evidence over that of any building, the probability of the place where the robot would be
     at the end, that place, and the drawing.
 
+    With --mirrored each drawing is also tried as in a mirror, which takes twice as long. If that ranks first
+    by far, mirror the drawing before you drive by it. A building that looks alike in a mirror does not tell.
+
     **Examples:**
 
     - `pilotage which floor1.svg floor2.pdf run.log.gz`
     - `pilotage which floors/*.svg monday.mcap tuesday.mcap --travel 80 --jobs 8`
+    - `pilotage which scan.png run.log.gz --mirrored`
     """
     from pilotage.io.logs import is_log
 
@@ -58,25 +69,36 @@ def which(
     if not (logs and drawings):
         missing = "a log" if not logs else "a drawing"
         raise FileError(f"drawings and logs are needed, {missing} is missing", files[0])
+    tasks = [
+        (drawing, is_mirrored)
+        for drawing in drawings
+        for is_mirrored in ((False, True) if mirrored else (False,))
+    ]
     for log in logs:
         scores = sorted(
-            scored(drawings, log, travel, seed, jobs), key=lambda one: (-one.log_evidence, one.drawing)
+            scored(tasks, log, travel, seed, jobs),
+            key=lambda one: (-one.log_evidence, one.drawing, one.is_mirrored),
         )
         if not scores:
             raise FileError("none of the drawings can be used", log)
         for rank, one in enumerate(scores, start=1):
             numbers = f"{rank:3d}  {one.log_evidence:+9.1f}  {one.probability:.2f}"
-            typer.echo(f"{log.name}  {numbers}  {one.place}  {one.drawing}")
+            typer.echo(f"{log.name}  {numbers}  {one.place}  {named(one, str(one.drawing))}")
 
 
-def scored(drawings: Sequence[Path], log: Path, travel: float, seed: int, jobs: int) -> Iterator[Score]:
+def named(one: Score, drawing: str) -> str:
+    """Add to the name of a drawing whether it was mirrored."""
+    return f"{drawing}, mirrored" if one.is_mirrored else drawing
+
+
+def scored(tasks: Sequence[Task], log: Path, travel: float, seed: int, jobs: int) -> Iterator[Score]:
     """Try all drawings in processes, each as it is done; what a killed process had is tried again."""
-    waiting = list(drawings)
+    waiting = list(tasks)
     for _ in range(ATTEMPTS):
-        lost: list[Path] = []
+        lost: list[Task] = []
         with ProcessPoolExecutor(min(jobs, len(waiting))) as pool:
-            futures: dict[Future[Score], Path] = {
-                pool.submit(score, drawing, log, travel, seed): drawing for drawing in waiting
+            futures: dict[Future[Score], Task] = {
+                pool.submit(score, task, log, travel, seed): task for task in waiting
             }
             for done, future in enumerate(as_completed(futures), start=1):
                 try:
@@ -86,7 +108,8 @@ def scored(drawings: Sequence[Path], log: Path, travel: float, seed: int, jobs: 
                 except PilotageError as error:
                     say(f"pilotage: left out: {error}")
                 else:
-                    say(f"pilotage: {done} of {len(waiting)}: {one.drawing.name} {one.log_evidence:+.1f}")
+                    name = named(one, one.drawing.name)
+                    say(f"pilotage: {done} of {len(waiting)}: {name} {one.log_evidence:+.1f}")
                     yield one
         if not lost:
             return
@@ -94,13 +117,15 @@ def scored(drawings: Sequence[Path], log: Path, travel: float, seed: int, jobs: 
     say(f"pilotage: {len(waiting)} drawings were given up, their processes were killed")
 
 
-def score(drawing: Path, log: Path, travel: float, seed: int) -> Score:
+def score(task: Task, log: Path, travel: float, seed: int) -> Score:
     """Localize along the first metres of a log, and sum up the evidence."""
+    drawing, is_mirrored = task
     from pilotage.io import open_log, open_map
     from pilotage.localization import Localizer
 
     try:
-        localizer = Localizer(open_map(drawing), seed=seed)
+        sketch = open_map(drawing)
+        localizer = Localizer(sketch.mirrored() if is_mirrored else sketch, seed=seed)
     except ValueError as error:
         raise FileError(str(error), drawing) from error
     gone, last = 0.0, None
@@ -112,4 +137,4 @@ def score(drawing: Path, log: Path, travel: float, seed: int) -> Score:
         if gone >= travel:
             break
     estimate = localizer.estimate
-    return Score(drawing, localizer.log_evidence, estimate.place, estimate.probability)
+    return Score(drawing, is_mirrored, localizer.log_evidence, estimate.place, estimate.probability)

@@ -1,6 +1,7 @@
 """What was understood of a drawing, with the findings where they are."""
 
 import textwrap
+from collections import Counter
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -37,8 +38,8 @@ ROLE_COLOR = {
 }
 """Marks of other roles are seen in the walls, the names and the cells."""
 
-LISTED = 12
-"""So many findings are listed below the picture."""
+LISTED, OF_A_KIND = 12, 3
+"""So many findings are listed below the picture, and so many of a kind."""
 
 BESIDE_NAME = 18.0
 """How far above the middle of a room its finding stands [points]: the name stays readable."""
@@ -81,13 +82,16 @@ def check_figure(report: Report, *, title: str = "") -> Figure:
 
 def list_of(findings: tuple[Finding, ...], width: float) -> list[tuple[str, Severity]]:
     """Write the findings in lines, each with its number, for a width [inches]."""
-    lines = []
-    for number, finding in enumerate(findings[:LISTED], start=1):
+    lines, told = [], Counter[str]()
+    for number, finding in enumerate(findings, start=1):
+        if told[finding.kind] == OF_A_KIND or told.total() == LISTED:
+            continue
+        told[finding.kind] += 1
         text = f"{number}  {finding.severity.value}: {finding.text}; {finding.advice}"
         wrapped = textwrap.wrap(text, int(width * LETTERS_AN_INCH), subsequent_indent="    ")
         lines += [(line, finding.severity) for line in wrapped]
-    if len(findings) > LISTED:
-        lines.append((f"and {len(findings) - LISTED} more", Severity.NOTE))
+    if len(findings) > told.total():
+        lines.append((f"and {len(findings) - told.total()} more", Severity.NOTE))
     return lines
 
 

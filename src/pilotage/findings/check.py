@@ -12,7 +12,15 @@ from pilotage.findings.page import (
     no_doors,
     nothing_enclosed,
 )
-from pilotage.findings.rooms import find_closed_areas, find_names, find_parts, find_rooms_without_door
+from pilotage.findings.rooms import (
+    drawn_doors,
+    find_closed_areas,
+    find_names,
+    find_parts,
+    find_rooms_without_door,
+    find_stair_rooms,
+)
+from pilotage.findings.steps import find_drivable_stairs
 from pilotage.interpretation import Interpretation
 from pilotage.maps import (
     CellGraph,
@@ -78,9 +86,11 @@ def find_all(
 ) -> Iterator[Finding]:
     """Ask all checks."""
     yield from find_bad_ends(sketch, division.graph)
-    yield from find_closed_areas(division, sketch.labels)
-    yield from find_rooms_without_door(division.graph)
     yield from find_parts(division.graph)
+    yield from find_closed_areas(division, sketch.labels)
+    yield from find_rooms_without_door(sketch, division.graph, drawn_doors(interpretation))
+    yield from find_stair_rooms(division.graph)
+    yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)
     yield from find_names(sketch, division)
     yield from find_closed_gaps(division)

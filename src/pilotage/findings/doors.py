@@ -18,6 +18,11 @@ DOOR = 0.03
 MOST_OF_WALL = 0.6
 """A door takes at most this share of a straight wall."""
 
+NEAR = 1.5
+"""A door that is drawn this near to a wall may lead through it, as a share of the usual door's width."""
+
+NOWHERE = np.empty((0, 2))
+
 
 def door_width(graph: CellGraph) -> float:
     """Return the usual width of a door [drawing units]: the median of all gateways, if there are any."""
@@ -25,8 +30,10 @@ def door_width(graph: CellGraph) -> float:
     return float(np.median(widths)) if widths else DOOR * graph.diameter
 
 
-def suggest_door(room: shapely.Polygon, others: list[shapely.Polygon], graph: CellGraph) -> Mend | None:
-    """Cut a door in the middle of the longest straight wall between a room and another one.
+def suggest_door(
+    room: shapely.Polygon, others: list[shapely.Polygon], graph: CellGraph, drawn: Array = NOWHERE
+) -> Mend | None:
+    """Cut a door where one is drawn (n, 2), else in the middle of the longest straight wall to another room.
 
     Returns None if no other room is near.
     """
@@ -36,9 +43,27 @@ def suggest_door(room: shapely.Polygon, others: list[shapely.Polygon], graph: Ce
         sides = np.concatenate([np.empty((0, 2, 2)), *map(straight_sides, shared)])
         if len(sides):
             lengths = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
-            side, length = sides[lengths.argmax()], float(lengths.max())
-            return cut(side, min(door_width(graph), MOST_OF_WALL * length))
+            width = door_width(graph)
+            side = nearest_side(sides[lengths >= width], drawn, width)
+            side = sides[lengths.argmax()] if side is None else side
+            return cut(side, min(width, MOST_OF_WALL * float(np.hypot(*(side[1] - side[0])))))
     return None
+
+
+def nearest_side(sides: Array, drawn: Array, width: float) -> Array | None:
+    """Find the piece of a side (n, 2, 2), nearest to a drawn door; None if none is near."""
+    lines = shapely.linestrings(sides)
+    if len(lines) == 0 or len(drawn) == 0:
+        return None
+    marks, found = shapely.points(drawn), shapely.STRtree(lines)
+    (mark, line), distance = found.query_nearest(marks, max_distance=NEAR * width, return_distance=True)
+    if len(mark) == 0:
+        return None
+    k = int(distance.argmin())
+    side = lines[line[k]]
+    half = min(width / MOST_OF_WALL, side.length) / 2.0
+    along = min(max(float(side.project(marks[mark[k]])), half), side.length - half)
+    return np.array([side.interpolate(along - half).coords[0], side.interpolate(along + half).coords[0]])
 
 
 def straight_sides(lines: shapely.Geometry) -> Array:

@@ -3,41 +3,77 @@
 from collections.abc import Iterator
 
 import numpy as np
+import rustworkx
 import shapely
+from numpy.typing import NDArray
 
-from pilotage.findings.doors import suggest_door
+from pilotage.findings.doors import NOWHERE, door_width, suggest_door
 from pilotage.findings.finding import Finding, Severity
+from pilotage.geometry import Array
+from pilotage.interpretation import Interpretation, Role
+from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
 from pilotage.maps.routing.places import connected_cells
 
 BUILDING = 0.2
 """A part that cannot be reached is a building of its own from this share of the largest part's area on."""
 
+APART = 0.04
+"""And if it is so far from it that no wall is between, as a share of the drawing's diameter."""
+
+WHOLE, FEW = 0.6, 3
+"""A drawing is in pieces if its largest part has less than this share of the floor, beside so many others."""
+
 SOLID = 0.005
 """A closed area of less than this share of all cells is not worth a word."""
+
+NAMED, UNNAMED = 3, 2.0
+"""Where so many rooms have a name, rooms without are pieces of others if they are so many times as many."""
 
 LISTED = 3
 """So many words are listed before the rest is counted."""
 
+ALONG = 0.003
+"""An outline is open where it is farther than this from all strokes, as a share of the drawing's diameter."""
+
+LEAST_DOOR = 0.4
+"""A door to the outside has at least this share of the usual width."""
+
 DOOR_ADVICE = "leave a gap in its wall where the door is"
 
 
-def find_rooms_without_door(graph: CellGraph) -> Iterator[Finding]:
-    """Find cells that no gateway leads to."""
-    for cell in graph.cells:
-        if len(graph.cells) > 1 and not graph.gateways_of(cell.cell_id):
-            others = [other.polygon for other in graph.cells if other is not cell]
-            mend = suggest_door(cell.polygon, others, graph)
-            text = f"no door leads into {named(cell)}"
-            yield Finding(
-                "room-without-door",
-                Severity.WARNING,
-                text,
-                DOOR_ADVICE,
-                cell.center,
-                (cell.cell_id,),
-                mend,
-            )
+def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+    """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2)."""
+    rooms = [cell for cell in graph.cells if not graph.gateways_of(cell.cell_id)]
+    if len(graph.cells) == 1 or not rooms:
+        return
+    strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    for cell in rooms:
+        others = [other.polygon for other in graph.cells if other is not cell]
+        mend = suggest_door(cell.polygon, others, graph, drawn)
+        text, advice = f"no door leads into {named(cell)}", DOOR_ADVICE
+        if leads_outdoors(cell, strokes, door_width(graph), ALONG * graph.diameter):
+            text += ", except from outside of what is drawn"
+            advice = "draw the walls around the place where it leads, or leave a gap in another wall"
+        yield Finding("room-without-door", Severity.WARNING, text, advice, cell.center, (cell.cell_id,), mend)
+
+
+def leads_outdoors(cell: Cell, strokes: shapely.STRtree, door: float, near: float) -> bool:
+    """Tell whether the outline of a cell without a gateway is open for the width of a door."""
+    outline = cell.polygon.exterior
+    beside = strokes.geometries[strokes.query(outline, predicate="dwithin", distance=near)]
+    walls = shapely.union_all(shapely.buffer(beside, near))
+    parts = shapely.get_parts(shapely.line_merge(shapely.difference(outline, walls)))
+    return bool((shapely.length(parts) + 2.0 * near > LEAST_DOOR * door).any())
+
+
+def drawn_doors(interpretation: Interpretation | None) -> Array:
+    """List the ends of all marks that were taken for doors, (n, 2)."""
+    if interpretation is None:
+        return NOWHERE
+    pairs = zip(interpretation.sheet.marks, interpretation.meanings, strict=True)
+    doors = [line.vertices for mark, meaning in pairs if meaning.role is Role.DOOR for line in mark.outlines]
+    return np.vstack([NOWHERE, *(vertices[[0, -1]] for vertices in doors)])
 
 
 def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator[Finding]:
@@ -64,19 +100,28 @@ def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator
 
 
 def find_parts(graph: CellGraph) -> Iterator[Finding]:
-    """Find cells that cannot be reached from the rest, and sheets that show two buildings."""
+    """Find cells that cannot be reached from the rest, drawings in pieces, and sheets of two buildings."""
     parts = connected_cells(graph)
-    areas = [sum(graph.cell(name).polygon.area for name in part) for part in parts]
-    hulls = [
-        shapely.convex_hull(shapely.union_all([graph.cell(name).polygon for name in part])) for part in parts
-    ]
+    shapes = [shapely.union_all([graph.cell(name).polygon for name in part]) for part in parts]
+    hulls, areas = shapely.convex_hull(shapes), shapely.area(shapes)
+    stands_apart = (areas > BUILDING * areas[0]) & ~shapely.intersects(hulls, hulls[0])
+    stands_apart &= ~in_one_building(shapes, APART * graph.diameter)
+    beside = [number for number in range(1, len(parts)) if not stands_apart[number]]
+    if len(beside) >= FEW and areas[0] < WHOLE * areas[[0, *beside]].sum():
+        count = sum(len(parts[number]) for number in (0, *beside))
+        yield Finding(
+            "in-pieces",
+            Severity.WARNING,
+            f"doors join only {len(parts[0])} of {count} rooms",
+            "walls or doors are not understood as they are meant: the picture of --figure shows how;"
+            " erase what is no wall, leave gaps for doors, or say what a layer is (--layer NAME=door)",
+        )
     for number in range(1, len(parts)):
         if len(parts[number]) < 2:
             continue  # a room without a door
         cells = [cell for cell in graph.cells if cell.cell_id in parts[number]]
-        is_building = areas[number] > BUILDING * areas[0] and not hulls[number].intersects(hulls[0])
         listed = ", ".join(named(cell) for cell in cells[:4]) + (", ..." if len(cells) > 4 else "")
-        if is_building:
+        if stands_apart[number]:
             yield Finding(
                 "two-buildings",
                 Severity.WARNING,
@@ -101,6 +146,33 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
             )
 
 
+def in_one_building(shapes: list[shapely.Geometry], wall: float) -> NDArray[np.bool_]:
+    """Tell which shapes (n,) hang with the first one, also by others, across no more than a wall."""
+    network = rustworkx.PyGraph()
+    network.add_nodes_from(range(len(shapes)))
+    tree = shapely.STRtree(shapes)
+    near = tree.query(shapes, predicate="dwithin", distance=wall).T
+    network.add_edges_from_no_data(list(map(tuple, near.tolist())))
+    found = np.zeros(len(shapes), dtype=bool)
+    found[list(rustworkx.node_connected_component(network, 0))] = True
+    return found
+
+
+def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
+    """Find rooms that are called stairs or lifts, and that doors lead into all the same."""
+    for cell in graph.cells:
+        roles = {MEANING.get(word) for word in name_words(cell.label)}
+        if Role.STAIRS in roles and graph.gateways_of(cell.cell_id):
+            yield Finding(
+                "stairs-room",
+                Severity.NOTE,
+                f"{named(cell)} counts as a room that a robot may drive in",
+                "if it may not, outline it on a layer named 'keep-out'",
+                cell.center,
+                (cell.cell_id,),
+            )
+
+
 def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
     """Find labels outside of rooms, names that several rooms have, and rooms that have several names."""
     graph = division.graph
@@ -112,6 +184,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
             "write names into the rooms, or give them by --label NAME=X,Y",
         )
     yield from find_stray_labels(sketch, division)
+    yield from find_cut_rooms(graph)
     by_name: dict[str, list[Cell]] = {}
     for cell in graph.cells:
         if cell.label:
@@ -122,7 +195,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 "same-name",
                 Severity.NOTE,
                 f"{len(cells)} rooms are called {cells[0].label!r}",
-                f"call them by their ids ({', '.join(cell.cell_id for cell in cells)}) or number them",
+                "number them, or say which by X,Y",
                 cells[1].center,
                 tuple(cell.cell_id for cell in cells),
             )
@@ -137,6 +210,22 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 cell.center,
                 (cell.cell_id,),
             )
+
+
+def find_cut_rooms(graph: CellGraph) -> Iterator[Finding]:
+    """Find drawings that name their rooms and fall into many more cells without a name."""
+    unnamed = [cell for cell in graph.cells if not cell.label]
+    named_count = len(graph.cells) - len(unnamed)
+    if named_count < NAMED or len(unnamed) < UNNAMED * named_count:
+        return
+    yield Finding(
+        "cut-rooms",
+        Severity.NOTE,
+        f"{len(unnamed)} of {len(graph.cells)} rooms have no name: furniture may cut rooms in pieces",
+        "erase what is no wall, or say which layers are none: --layer NAME=furniture",
+        unnamed[0].center,
+        tuple(cell.cell_id for cell in unnamed),
+    )
 
 
 def find_stray_labels(sketch: SchematicMap, division: Division) -> Iterator[Finding]:

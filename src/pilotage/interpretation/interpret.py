@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+import shapely
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
@@ -14,6 +15,7 @@ from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
 from pilotage.interpretation.words import find_names
 from pilotage.interpretation.zones import find_zones
@@ -23,8 +25,11 @@ GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
 
 
-NO_WALLS = (Role.DOOR, Role.FURNITURE, Role.LABEL, Role.IGNORE)
-"""What a name makes one of these is no wall; windows and stairs close rooms as walls do."""
+NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
+
+CLOSING = (Role.WALL, Role.WINDOW, Role.STAIRS)
+"""What a person makes one of these stays a part of the building."""
 
 NOT_NAMED = (Role.WALL, "")
 
@@ -50,15 +55,19 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     nothing on the sheet can be a wall.
     """
     told = [told_role(mark.names, layers) for mark in sheet.marks]
-    open_to_guess = [number for number, role in enumerate(told) if role is None]
+    closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
+    open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]
     paper = find_paper(sheet, open_to_guess)
     drawn = [number for number in open_to_guess if number not in paper.sheets]
     diagonal = diagonal_of(sheet, drawn)
-    glyphs = find_glyphs([sheet.marks[number] for number in drawn], diagonal)
-    letters = {number for place, number in enumerate(drawn) if place in glyphs}
+    unsaid = [number for number in drawn if number not in closing]
+    glyphs = find_glyphs([sheet.marks[number] for number in unsaid], diagonal)
+    letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     guessed = {
-        mark.number: role for mark in visible if (role := guessed_role(sheet.marks[mark.number].names))
+        mark.number: role
+        for mark in visible
+        if (role := closing.get(mark.number) or guessed_role(sheet.marks[mark.number].names))
     }
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     doors = find_doors(sheet, visible, diagonal)
@@ -72,7 +81,15 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         ground=paper.ground,
         diagonal=diagonal,
     )
-    strokes = tuple(wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2))
+    stairs = find_stairs(
+        [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] is Role.STAIRS], sheet, diagonal
+    )
+    sure = [mark for mark in seen if mark.number in closing]
+    strokes = (
+        *wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2),
+        *(line for mark in sure for line in beside_walls(mark, walls)),
+        *(line for ring in rings_of(stairs) for line in polylines_of(ring)),
+    )
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
     text_roles = [told_role(text.names, layers) or (Role.LABEL, "words") for text in sheet.texts]
@@ -80,12 +97,13 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     names = find_names([(number, sheet.texts[number]) for number in spoken])
     labels = tuple(Label(name.words, name.position) for name in names)
     start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
+    solid = walls.solid if walls.solid.is_empty else shapely.union(walls.solid, stairs)
     sketch = SchematicMap(
         strokes,
         start=start,
         goal=goal,
         labels=labels,
-        solids=tuple(polyline for ring in rings_of(walls.solid) for polyline in polylines_of(ring)),
+        solids=tuple(polyline for ring in rings_of(solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
@@ -133,6 +151,13 @@ def wall_strokes(
             yield from strokes_of(drawn, grain) if mark.whole else polylines_of(mark.line)
         elif drawn.fill is not None and drawn.fill not in walls.colors and not is_floor(drawn.fill, ground):
             yield from strokes_of(drawn, grain)
+
+
+def beside_walls(mark: Seen, walls: Walls) -> list[Polyline]:
+    """List the lines of a mark that is told to be a wall, where no wall was found."""
+    if walls.lines is None:
+        return []  # every line is a wall
+    return list(polylines_of(shapely.difference(mark.line, shapely.union(walls.solid, walls.lines))))
 
 
 def strokes_of(mark: Mark, grain: float) -> Iterator[Polyline]:

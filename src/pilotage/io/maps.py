@@ -1,6 +1,7 @@
 """Open a drawing of any kind that can be read."""
 
 import os
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +16,9 @@ from pilotage.io.map_server import read_map_server
 from pilotage.io.raster import Picture, Shading, read_picture, sheet_or_plan
 from pilotage.io.sheets import read_sheet, split_page
 from pilotage.maps import Label, SchematicMap
+
+MOST_NAMES = 3
+"""So many names of layers are told where a drawing has too many pieces."""
 
 MOST_PIECES = 30_000
 """More would take minutes and gigabytes to divide into rooms."""
@@ -116,10 +120,22 @@ def understood(sheet: Sheet, file: Path, hints: DrawingHints) -> tuple[Schematic
     if pieces > MOST_PIECES:
         raise FileError(
             f"a drawing must have at most {MOST_PIECES:,} straight pieces of walls, found {pieces:,};"
-            " leave out furniture, hatching and text, in the program that drew it or by --layer NAME=ignore",
+            " leave out furniture, hatching and text, in the program that drew it or by --layer NAME=ignore"
+            f"{most_walls(interpretation)}",
             file,
         )
     return interpretation.sketch, interpretation
+
+
+def most_walls(interpretation: Interpretation) -> str:
+    """Say under which names most pieces of walls are drawn; nothing if they have no names."""
+    pieces = Counter[str]()
+    for mark, meaning in zip(interpretation.sheet.marks, interpretation.meanings, strict=True):
+        if meaning.role is Role.WALL:
+            count = sum(len(outline) for outline in mark.outlines)
+            pieces.update(dict.fromkeys(mark.names, count))
+    told = ", ".join(f"{name!r} ({count:,})" for name, count in pieces.most_common(MOST_NAMES))
+    return f" (most are named {told})" if told else ""
 
 
 def unknown_layers(interpretation: Interpretation, layers: Mapping[str, Role]) -> list[str]:

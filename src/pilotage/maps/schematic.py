@@ -1,6 +1,6 @@
 """A drawing of a building, as a person made it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
@@ -69,6 +69,33 @@ class SchematicMap:
     def sketch_from_file(self, points: Array) -> Array:
         """Carry points (n, 2) from the axes of the source file to the sketch (y up)."""
         return self.file_axes.to_sketch(points)
+
+    def mirrored(self) -> "SchematicMap":
+        """Return the mirror image, left for right; places are told in the axes of the same file."""
+        (left, _, right, _), zones = self.bounds, self.zones
+        mirror = Homography(((-1.0, 0.0, left + right), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
+        photo = (
+            Homography.from_matrix(np.eye(3)) if self.photo_from_sketch is None else self.photo_from_sketch
+        )
+
+        def carried(line: Polyline) -> Polyline:
+            return Polyline(mirror.points(line.vertices), line.closed)
+
+        def moved(point: tuple[float, float]) -> tuple[float, float]:
+            return left + right - point[0], point[1]
+
+        return replace(
+            self,
+            strokes=tuple(carried(line).reversed() for line in self.strokes),  # free space stays on the left
+            solids=tuple(carried(line).reversed() for line in self.solids),
+            zones=Zones(
+                *(tuple(map(carried, lines)) for lines in (zones.keep_out, zones.slow, zones.one_way))
+            ),
+            start=self.start and moved(self.start),
+            goal=self.goal and moved(self.goal),
+            labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),
+            photo_from_sketch=Homography.from_matrix(photo.matrix @ mirror.matrix),
+        )
 
 
 def diameter_of(points: Array) -> float:

@@ -21,6 +21,17 @@ from pilotage.io.scales import first_number
 IMDF_FILES = ("unit", "opening", "fixture", "kiosk", "level")
 """Files of an IMDF archive that draw something, or name the levels."""
 
+DAMAGED = (
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    OverflowError,
+    shapely.errors.ShapelyError,
+)
+"""What a geometry of odd types and numbers raises."""
+
 
 def read_geojson(path: Path, level: str | None = None) -> Sheet:
     """Read a GeoJSON file; `unit.geojson` of an IMDF archive is read with the files beside it.
@@ -142,7 +153,7 @@ def read_shape(raw: object) -> shapely.Geometry | None:
         return None
     try:
         shape = shapely.geometry.shape(raw)
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, shapely.errors.ShapelyError):
+    except DAMAGED:
         return None
     if shape.is_empty or not all(map(_finite, shape.bounds)):
         return None

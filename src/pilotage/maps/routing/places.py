@@ -11,12 +11,13 @@ SLACK = 0.005
 
 
 def find_labeled(graph: CellGraph, words: str) -> Point:
-    """Find where to stand in the one cell that bears a label; case does not matter.
+    """Find where to stand in the one cell that bears a label, or else has this id; case does not matter.
 
-    Raises RouteError if no cell or more than one bears it.
+    Raises RouteError if it is no cell, or if several bear the label.
     """
     wanted = words.casefold().strip()
     found = [cell for cell in graph.cells if wanted in (word.casefold() for word in cell.label.split(", "))]
+    found = found or [cell for cell in graph.cells if cell.cell_id.casefold() == wanted]
     if len(found) == 1:
         return found[0].center
     if found:
