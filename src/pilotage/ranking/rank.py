@@ -90,6 +90,7 @@ def rank(
                 say(f"left out: {observations}")
             else:
                 seen[look.log] = observations
+        seen = {log: seen[log] for log in some if log in seen}  # in the order that was asked for
         yield from rank_some(drawings, seen, workers, board, seed=seed, say=say)
 
 

@@ -23,6 +23,10 @@ PATIENCE = "10s"
 """How long a scheduler may take to answer."""
 
 
+UNREADABLE = "deserialization"
+"""A word of the message of a scheduler whose workers cannot read their tasks."""
+
+
 class LostTaskError(PilotageError):
     """The processes that tried a task were killed, again and again."""
 
@@ -159,7 +163,9 @@ class Cluster:
                 yield task, future.result()
             except KilledWorker:
                 yield task, LostTaskError("the workers that tried it died")
-            except ImportError as error:
-                raise ClusterError(f"a worker lacks what it needs ({error})") from error
             except PilotageError as error:
                 yield task, error
+            except (ImportError, RuntimeError) as error:
+                if isinstance(error, RuntimeError) and UNREADABLE not in str(error):
+                    raise
+                raise ClusterError("a worker lacks pilotage, or has another version of it") from error
