@@ -3,6 +3,7 @@
 import pytest
 
 from pilotage import worlds
+from pilotage.cli.ros2 import Transport, joined
 
 DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
 
@@ -22,3 +23,10 @@ def test_a_drive_by_guessed_limits_is_refused(pilotage, words, rule):
 
     assert 2 == outcome.code
     assert rule in " ".join(outcome.err.replace("│", " ").split())
+
+
+@pytest.mark.parametrize(("transport", "home"), [("dds", "node.Node"), ("zenoh", "zenoh_node.ZenohNode")])
+def test_the_transport_is_the_one_that_was_asked_for(transport, home, monkeypatch):
+    monkeypatch.setattr(f"pilotage.ros.{home}", lambda *words: (transport, *words))
+
+    assert (transport, 7, "robot1") == joined(Transport(transport), 7, "robot1")
