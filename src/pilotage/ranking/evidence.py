@@ -58,15 +58,16 @@ def weigh(
     return Evidence(localizer.log_evidence, estimate.place, estimate.probability)
 
 
-def reduced(settings: LocalizerSettings, share: float) -> LocalizerSettings:
-    """Return settings with a share of the particles and of the places that a search tries."""
-    tracks = settings.tracks
+def reduced(settings: LocalizerSettings, share: float, fineness: float = 1.0) -> LocalizerSettings:
+    """Return settings with a share of the particles and proposals, and with coarser ranges of the drawing."""
+    tracks, table = settings.tracks, settings.atlas.range_table
 
-    def some(count: int) -> int:
+    def some(count: int, share: float = share) -> int:
         return max(1, round(share * count))
 
     return replace(
         settings,
+        atlas=replace(settings.atlas, range_table=replace(table, cells=some(table.cells, fineness))),
         proposals=max(100, some(settings.proposals)),
         tracks=replace(
             tracks,
