@@ -52,7 +52,7 @@ class DrawingTask:
 
 @dataclass(slots=True)
 class Board:
-    """All scores that are known so far, and what was left out."""
+    """All scores that are known so far."""
 
     scores: dict[Path, dict[Path, Score]] = field(default_factory=dict)  # by log, then drawing
 
