@@ -45,9 +45,12 @@ def test_an_error_that_a_user_can_mend_is_a_result():
     assert "numbers must not be negative: -1" == str(found[-1])
 
 
-def test_a_mistake_in_a_task_is_raised_and_ends_the_processes():
-    with pytest.raises(TypeError), Processes(1) as processes:
-        list(processes.run(ranking_tasks.square, ["a", "b"]))
+def test_a_mistake_in_a_task_is_told_and_leaves_the_others_alone():
+    with Processes(1) as processes:
+        found = dict(processes.run(ranking_tasks.square, [3, "a"]))
+
+    assert 9 == found[3]
+    assert "this is a mistake in pilotage (TypeError" in str(found["a"])
 
 
 def test_a_number_of_processes_is_positive():

@@ -31,6 +31,15 @@ class LostTaskError(PilotageError):
     """The processes that tried a task were killed, again and again."""
 
 
+class FailedTaskError(PilotageError):
+    """A task met a mistake of ours: it alone is left out, not what hours of work found."""
+
+    @classmethod
+    def of(cls, error: Exception) -> Self:
+        """Say what went wrong."""
+        return cls(f"this is a mistake in pilotage ({type(error).__name__}: {error}), please report it")
+
+
 class ClusterError(PilotageError):
     """A cluster cannot be used."""
 
@@ -41,7 +50,7 @@ class Workers(Protocol):
     def run(
         self, function: Callable[[Task], Result], tasks: Iterable[Task]
     ) -> Iterator[tuple[Task, Result | PilotageError]]:
-        """Yield each task with its result, or with the error that a user can mend; raise others."""
+        """Yield each task with its result, or with what went wrong."""
 
 
 class Processes:
@@ -98,6 +107,8 @@ class Processes:
                         yield task, LostTaskError("the processes that tried it were killed")
                 except PilotageError as error:
                     yield task, error
+                except Exception as error:  # noqa: BLE001  # a mistake of ours
+                    yield task, FailedTaskError.of(error)
 
     def _submit(
         self, running: dict[Future[Result], Task], function: Callable[[Task], Result], task: Task
@@ -165,7 +176,7 @@ class Cluster:
                 yield task, LostTaskError("the workers that tried it died")
             except PilotageError as error:
                 yield task, error
-            except (ImportError, RuntimeError) as error:
-                if isinstance(error, RuntimeError) and UNREADABLE not in str(error):
-                    raise
-                raise ClusterError("a worker lacks pilotage, or has another version of it") from error
+            except Exception as error:  # a mistake of ours, or workers without pilotage
+                if isinstance(error, ImportError) or UNREADABLE in str(error):
+                    raise ClusterError("a worker lacks pilotage, or has another version of it") from error
+                yield task, FailedTaskError.of(error)
