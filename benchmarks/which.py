@@ -102,8 +102,8 @@ def above_wrong(rankings: dict[Path, tuple[Score, ...]], building_of: dict[Path,
     for log, ranking in rankings.items():
         right = [building_of[one.drawing] == building_in(log) for one in ranking]
         for place, (one, is_right) in enumerate(zip(ranking, right, strict=True)):
-            if is_right:
-                beaten = right[place:].count(False) / max(right.count(False), 1)
+            if is_right and False in right:
+                beaten = right[place:].count(False) / right.count(False)
                 shares.setdefault(one.drawing.stem.rpartition("-")[0] or one.drawing.stem, []).append(beaten)
     figures = {hand: float(np.mean(values)) for hand, values in sorted(shares.items())}
     print("a right drawing beats of the wrong ones: " + ", ".join(f"{k} {v:.2f}" for k, v in figures.items()))
