@@ -25,6 +25,7 @@ NAMES = (
     "calibration",
     "kidnap",
     "mismatch",
+    "which",
     "ladder",
     "looks",
     "people",

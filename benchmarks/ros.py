@@ -3,8 +3,9 @@
     python -m benchmarks ros
 
 The robot's side is a simulator with a node of its own. It waits for each command, so that what is measured
-does not depend on the machine's load; the clock of the watchdog is the simulated one. Latency is what DDS and
-messages add: from a scan's publication to the command's arrival, less the time of the step itself.
+does not depend on the machine's load; the clock of the watchdog is the simulated one. Latency is what DDS,
+messages and the watchdog add: from a scan's publication to the command's arrival at the robot, which listens
+in a thread of its own, less the time of the session's step. What is published after a command delays none.
 """
 
 import argparse

@@ -4,6 +4,7 @@ import math
 import os
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ LOOPBACK = """<CycloneDDS><Domain Id="any"><General><Interfaces><NetworkInterfac
 TWIST_TYPE = "geometry_msgs/msg/Twist"
 OBEYED_FOR = 0.5
 """[s] A robot stands if it hears no command for so long."""
+PATIENCE = 0.02
+"""[s] The robot waits for a command for so long after its scan was worked on."""
 
 os.environ["CYCLONEDDS_URI"] = LOOPBACK  # tests stay on this machine
 
@@ -48,6 +51,7 @@ class DdsRobot:
         self.commands = node.subscribe("cmd_vel", TWIST_TYPE)
         self.command, self.commanded = Twist(0.0, 0.0), -math.inf  # in simulated time
         self.shift = 0.0
+        self.deadline = math.inf  # of waiting for a command
         self.mounts.publish(outgoing.transform(0.0, "base_link", "laser", Pose2.identity()))
 
     def tell(self) -> None:
@@ -68,6 +72,14 @@ class DdsRobot:
                 self.command = Twist(message.linear.x, message.angular.z)
                 self.commanded = self.simulator.stamp
 
+    def await_command(self) -> float:
+        """Wait for the next command, and return when it came [s]; -inf if none came before the deadline."""
+        before = self.commanded
+        while self.commanded == before and time.perf_counter() < self.deadline:
+            self.node.wait(0.002)
+            self.hear()
+        return -math.inf if self.commanded == before else time.perf_counter()
+
     def step(self) -> None:
         """Obey for one time step."""
         if self.simulator.stamp - self.commanded > OBEYED_FOR:
@@ -84,23 +96,24 @@ def run_together(
 ) -> list[float]:
     """Step the robot, and let the live side answer, as fast as both can; return the times of answers [s].
 
-    Counted is the time that was not `spent` otherwise, of scans that were answered by a command. The clock of
-    the live side must be that of the simulation.
+    The robot listens in a thread of its own: what the live side publishes after a command is no part of the
+    answer. Counted is the time that was not `spent` otherwise, of scans that were answered by a command. The
+    clock of the live side must be that of the simulation.
     """
     latencies = []
     end = robot.simulator.stamp + seconds
-    while robot.simulator.stamp < end and not until():
-        began, otherwise = time.perf_counter(), spent()
-        heard = live.watchdog.heard
-        robot.tell()
-        while live.watchdog.heard == heard and time.perf_counter() - began < 0.2:
-            live.spin_once(0.02)
-        deadline = time.perf_counter() + 0.02
-        before = robot.commanded
-        while robot.commanded == before and time.perf_counter() < deadline:
-            robot.node.wait(0.002)
-            robot.hear()
-        if robot.commanded != before:
-            latencies.append(time.perf_counter() - began - (spent() - otherwise))
-        robot.step()
+    with ThreadPoolExecutor(1) as ear:
+        while robot.simulator.stamp < end and not until():
+            robot.deadline = math.inf
+            began, otherwise = time.perf_counter(), spent()
+            heard = live.watchdog.heard
+            robot.tell()
+            came = ear.submit(robot.await_command)
+            while live.watchdog.heard == heard and time.perf_counter() - began < 0.2:
+                live.spin_once(0.02)
+            robot.deadline = time.perf_counter() + PATIENCE
+            took = came.result() - began
+            if took > 0.0:
+                latencies.append(took - (spent() - otherwise))
+            robot.step()
     return latencies

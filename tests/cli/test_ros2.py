@@ -3,6 +3,7 @@
 import pytest
 
 from pilotage import worlds
+from pilotage.cli.ros2 import Transport, joined
 
 DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
 
@@ -34,3 +35,10 @@ def test_a_damaged_state_is_refused_and_stays_as_it_is(pilotage, tmp_path):
     assert 1 == outcome.code
     assert f"this is no saved state, or it is damaged: {path}" in outcome.err or str(path) in outcome.err
     assert "precious" == path.read_text()
+
+
+@pytest.mark.parametrize(("transport", "home"), [("dds", "node.Node"), ("zenoh", "zenoh_node.ZenohNode")])
+def test_the_transport_is_the_one_that_was_asked_for(transport, home, monkeypatch):
+    monkeypatch.setattr(f"pilotage.ros.{home}", lambda *words: (transport, *words))
+
+    assert (transport, 7, "robot1") == joined(Transport(transport), 7, "robot1")

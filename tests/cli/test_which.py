@@ -4,7 +4,8 @@ import pickle
 
 import pytest
 
-from pilotage import FileError, worlds
+from pilotage import FileError, ranking, worlds
+from pilotage.ranking import Evidence, Score, workers
 
 
 @pytest.mark.slow
@@ -36,6 +37,31 @@ def test_a_mirrored_drawing_is_told(pilotage, tmp_path):
     assert 2 == len(lines)
     assert lines[0].endswith("flipped.svg, mirrored")
     assert lines[1].endswith("flipped.svg")
+
+
+def test_an_interrupted_ranking_shows_what_it_has(pilotage, monkeypatch):
+    def interrupted(drawings, logs, _workers, board, **_rest):
+        board.scores = {
+            logs[0]: {(drawings[1], False): Score(drawings[1], Evidence(2.5, "hall", 0.5), is_refined=False)}
+        }
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr(ranking, "rank", interrupted)
+    outcome = pilotage("which", worlds.OFFICE.careful, worlds.OFFICE.quick, worlds.LOG)
+
+    assert 130 == outcome.code
+    assert f"1 ~     +2.5  0.50  hall  {worlds.OFFICE.quick}" in outcome.out
+    assert "interrupted; run.log.gz was compared with 1 of 2 drawings" in outcome.err
+
+
+def test_a_cluster_that_is_not_there_is_told(pilotage, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(workers, "PATIENCE", "1s")
+    outcome = pilotage("which", worlds.OFFICE.careful, worlds.LOG, "--scheduler", "tcp://127.0.0.1:1")
+
+    assert 1 == outcome.code
+    assert "there is no scheduler of Dask at tcp://127.0.0.1:1" in outcome.err
 
 
 @pytest.mark.parametrize("words", [(worlds.LOG,), (worlds.OFFICE.careful,)])

@@ -78,3 +78,19 @@ def test_places_too_improbable_to_count_are_still_told():
     assert Status.MISMATCH is estimate.status
     assert 0.0 == estimate.probability
     np.testing.assert_allclose([estimate.x, estimate.y], [1.5, 5.0])
+
+
+def test_particles_apart_at_a_tiny_scale_still_make_a_hypothesis():
+    states = np.zeros((6, 42))
+    states[0] = [
+        1.0,
+        1.1,
+        *np.linspace(2.0, 8.0, 40),
+    ]  # two close on the drawing, metres apart at their scale
+    states[1] = 5.0
+    states[3, :2] = -4.0
+    weights = np.log([0.3, 0.3, *[0.4 / 40] * 40]) + math.log(0.9)
+    estimate = summarize(Tracks((Track(Particles(states, weights)),), math.log(0.1)), 0.5, 0.0, 1.0, ATLAS)
+
+    assert all(math.isfinite(one.sketch_from_base.pose.x) for one in estimate.hypotheses)
+    assert 0.0 < estimate.probability < 1.0

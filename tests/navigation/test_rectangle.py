@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 import shapely
-from four_rooms import ATLAS, EXACT, START, WORLD
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import affinity
 
+from four_rooms import ATLAS, EXACT, START, WORLD
 from knowing import KnowingLocalizer
 from pilotage.drives import Drive, drive
 from pilotage.geometry import Pose2, Twist

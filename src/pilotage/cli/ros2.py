@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Iterator
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -25,11 +26,18 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.io.state import SavedState
     from pilotage.maps import SchematicMap
-    from pilotage.ros.robot import LiveRobot
+    from pilotage.ros.robot import LiveRobot, Wire
     from pilotage.ros.session import Session
 
 REPORT_EVERY = 5.0
 """[s] between two lines on how it goes."""
+
+
+class Transport(StrEnum):
+    """What carries topics of ROS 2."""
+
+    DDS = "dds"
+    ZENOH = "zenoh"
 
 
 def ros2(
@@ -75,6 +83,9 @@ def ros2(
     domain: Annotated[
         int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")
     ] = 0,
+    transport: Annotated[
+        Transport, typer.Option(help="What carries the topics: DDS, or Zenoh as of rmw_zenoh.")
+    ] = Transport.DDS,
     namespace: Annotated[str, typer.Option(help="Namespace of the robot's topics.")] = "",
     scan_topic: Annotated[str, typer.Option("--scan-topic", help="Topic of the scans.")] = "scan",
     odometry_topic: Annotated[str, typer.Option("--odom-topic", help="Topic of the odometry.")] = "odom",
@@ -91,7 +102,7 @@ def ros2(
 ) -> None:
     """Localize a live robot of ROS 2 on a drawing, and drive it if that is wanted.
 
-    No ROS is needed on this machine: it joins the robot's domain by DDS (extra `ros2`).
+    No ROS is needed on this machine: it joins the robot's domain by DDS (extra `ros2`) or Zenoh (`zenoh`).
     Without `--drive` no wheel turns. With it, size and limits of the robot must be given.
     Goals are heard on *goal_pose* and *pilotage/goal*, starts on *initialpose*.
     Ctrl-C stops the robot and ends.
@@ -117,7 +128,6 @@ def ros2(
 
     if resume is not None and start is not None:
         raise typer.BadParameter("it excludes --start", param_hint="--resume")
-    from pilotage.ros.node import Node
     from pilotage.ros.robot import LiveRobot, Topics
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
@@ -143,10 +153,23 @@ def ros2(
         refusal = session.set_goal(Tour(tuple(goals), None if patrol else 1, returns))
         if refusal:
             raise typer.BadParameter(refusal, param_hint="--goal")
-    robot = LiveRobot(Node(domain, namespace), session, topics, lambda text: say(f"pilotage: {text}"))
+    robot = LiveRobot(
+        joined(transport, domain, namespace), session, topics, lambda text: say(f"pilotage: {text}")
+    )
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
     with saving_at_the_end(session, resume), standing_at_the_end(robot):
         spin(robot, ends=goal is not None)
+
+
+def joined(transport: Transport, domain: int, namespace: str) -> "Wire":
+    """Join a domain."""
+    if transport is Transport.ZENOH:
+        from pilotage.ros.zenoh_node import ZenohNode
+
+        return ZenohNode(domain, namespace)
+    from pilotage.ros.node import Node
+
+    return Node(domain, namespace)
 
 
 def check(limits: dict[str, float | None], *, drive: bool, localize_only: bool, goal: str | None) -> None:

@@ -1,7 +1,7 @@
 """Where the robot is on the drawing: the only layer that knows scan and map (Wolter 2001, section 3.4)."""
 
 from pilotage.localization.estimate import Estimate, PoseHypothesis, Status
-from pilotage.localization.localizer import Localizer, LocalizerSettings
+from pilotage.localization.localizer import Localizer, LocalizerSettings, Observation
 from pilotage.localization.prior import Prior
 from pilotage.localization.sensor_model import SensorModel, SensorSettings
 from pilotage.localization.tracks import Track, Tracks, TrackSettings
@@ -10,6 +10,7 @@ __all__ = [
     "Estimate",
     "Localizer",
     "LocalizerSettings",
+    "Observation",
     "PoseHypothesis",
     "Prior",
     "SensorModel",

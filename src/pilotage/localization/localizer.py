@@ -69,6 +69,16 @@ class LocalizerSettings:
         return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / NEW_TURN, 1.0)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """What the robot saw at a keyframe, and how it moved to it; knows no drawing."""
+
+    scan: SparseScan
+    corners: Corners  # in the frame of the robot [m]
+    motion: Pose2  # since the last keyframe
+    stamp: float  # [s]
+
+
 class Localizer:
     """Finds where on a drawing a robot is, scan by scan; the one place that holds state.
 
@@ -161,8 +171,9 @@ class Localizer:
         first = self._motion is None
         motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
         if first or self.settings.is_keyframe_due(motion):
-            self._add_keyframe(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
-            self._estimate = self._keyframe_estimate
+            self.add_keyframe(
+                Observation(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
+            )
             motion = Pose2.identity()
         else:
             assert self._keyframe_estimate is not None
@@ -170,10 +181,14 @@ class Localizer:
         self._motion = motion
         return self.estimate
 
-    def _add_keyframe(self, scan: SparseScan, corners: Corners, motion: Pose2, stamp: float) -> None:
-        """Propagate and reweight all tracks, let new ones be born, and sum up."""
+    def add_keyframe(self, seen: Observation) -> Estimate:
+        """Propagate and reweight all tracks, let new ones be born, and sum up.
+
+        `update` calls it. Who compares one log with many drawings may give them the same observations.
+        """
         settings, is_first = self.settings, not self._window
-        self._window = append_keyframe(self._window, motion, scan, corners)
+        scan, motion = seen.scan, seen.motion
+        self._window = append_keyframe(self._window, motion, scan, seen.corners)
         particles, log_null = self.tracks.particles, self.tracks.log_null
         if not is_first:
             particles = propagate(particles, motion, self.atlas, self._prior, self._rng)
@@ -192,8 +207,10 @@ class Localizer:
             particles = join([particles, self._births(share)])
         self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
         self._keyframe_estimate = summarize(
-            self.tracks, self._fit(scan), stamp, self._window[-1].travel, self.atlas
+            self.tracks, self._fit(scan), seen.stamp, self._window[-1].travel, self.atlas
         )
+        self._estimate = self._keyframe_estimate
+        return self._estimate
 
     def _within_window(self, totals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
         """Keep what belongs to the keyframes of the window."""

@@ -1,1 +1,1 @@
-"""Live robots of ROS 2 over DDS; no ROS is installed here (extra `ros2`)."""
+"""Live robots of ROS 2 over DDS (extra `ros2`) or Zenoh (`zenoh`); no ROS is installed here."""

@@ -12,7 +12,7 @@ LATCHED_DEPTH = 100
 
 
 class NoTransportError(PilotageError):
-    """The library that speaks DDS is not installed, or finds no network."""
+    """The library that carries messages is not installed, or finds no network."""
 
 
 class Subscription:
@@ -75,12 +75,6 @@ class Node:
         self._wait_set = WaitSet(self._participant)
         self._conditions: list[Any] = []
 
-    def full_name(self, topic: str) -> str:
-        """Return a topic with its namespace."""
-        if topic.startswith("/") or not self._namespace:
-            return "/" + topic.lstrip("/")
-        return f"/{self._namespace}/{topic}"
-
     def subscribe(self, topic: str, type_name: str, quality: Quality = Quality()) -> Subscription:
         """Listen to a topic; a reader that is not reliable hears reliable writers too."""
         from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
@@ -111,10 +105,21 @@ class Node:
     def _topic(self, topic: str, type_name: str) -> Any:  # noqa: ANN401  # of cyclonedds
         from cyclonedds.topic import Topic
 
-        key = self.full_name(topic), type_name
+        key = full_name(topic, self._namespace), type_name
         if key not in self._topics:
             self._topics[key] = Topic(self._participant, f"rt{key[0]}", idl_type(type_name))
         return self._topics[key]
+
+
+def full_name(topic: str, namespace: str) -> str:
+    """Return a topic with its namespace.
+
+    >>> full_name("scan", "robot1"), full_name("/tf", "robot1"), full_name("scan", "")
+    ('/robot1/scan', '/tf', '/scan')
+    """
+    if topic.startswith("/") or not namespace:
+        return "/" + topic.lstrip("/")
+    return f"/{namespace}/{topic}"
 
 
 def policies(quality: Quality, type_name: str) -> Any:  # noqa: ANN401  # of cyclonedds
