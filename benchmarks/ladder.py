@@ -1,13 +1,16 @@
 """Localize on drawings in people's manner, from true to as people draw, and tell how often the room is right.
 
     python -m benchmarks ladder [--severities 0,0.5,1] [--people N] [--episodes N] [--buildings A,B]
-        [--statistics] [--figure FILE]
+        [--hands A,B] [--true-warp] [--statistics] [--figure FILE]
 
 The true plan of a building, as `draftsman` drew it, is deformed: proportions room by room, doors, what is
 left out, and the hand itself (`pilotage.evaluation.deformation`). At severity 1 it is as far from the truth
 as drawings by people are. Each drawing of each person gets the episodes of `localization`: 40 m of a log,
-nothing told. `--statistics` only measures the drawings at severity 1 beside `freehand`, a drawing by a
-person, by the same code; `--figure` writes a picture of one building at six severities.
+nothing told. `--hands` adds drawings by other hands. `--true-warp` localizes once more on each drawing with
+the true warp taken out by its control points: what is lost there is lost by what the drawing leaves out, adds
+or moves, and the rest by its proportions. `--statistics` only measures the drawings at severity 1 beside
+`freehand`, a drawing by a person, by the same code; `--figure` writes a picture of one building at six
+severities.
 """
 
 import argparse
@@ -17,11 +20,11 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.lib.arguments import add_jobs, add_names, positive
-from benchmarks.lib.data import BUILDINGS, LOGS, drawing_of, folder_of
+from benchmarks.lib.arguments import add_jobs, add_names, names_of, positive
+from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, PEOPLE, drawing_of, drawings, folder_of
 from benchmarks.lib.protocols import Followed, Task, follow_all
 from benchmarks.lib.results import Figures, mean_of
-from benchmarks.lib.rungs import plan_of, rung_name
+from benchmarks.lib.rungs import plan_of, rung_name, straight_name
 from pilotage.evaluation.deformation import Plan, Statistics, deform, read_plan, statistics_of
 from pilotage.evaluation.episodes import score
 from pilotage.evaluation.rooms import read_world_rooms
@@ -30,7 +33,13 @@ from pilotage.io.tum import read_trajectory
 SEVERITIES = (0.5, 1.0)
 SHOWN = (0.0, 0.25, 0.5, 0.75, 1.0, 1.25)
 SHOWN_BUILDING = "csail"
-PEOPLE, EPISODES = 1, 3
+PERSONS, EPISODES = 1, 3
+WITH_TRUE_WARP = "true_warp_"
+SCORES = {
+    "room_end": ("room at end", 12),
+    "room_last10": ("last 10 m", 11),
+    "confident_wrong": ("sure+wrong", 12),
+}
 KNOWN_OF_PEOPLE = {
     "scale_p10": "0.64",
     "scale_p90": "1.55",
@@ -54,11 +63,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_names(parser, "--buildings", BUILDINGS)
     parser.add_argument(
-        "--people", type=positive, default=PEOPLE, help="drawings of each (default: %(default)s)"
+        "--people", type=positive, default=PERSONS, help="drawings of each (default: %(default)s)"
     )
     parser.add_argument(
         "--episodes", type=positive, default=EPISODES, help="for each drawing (default: %(default)s)"
     )
+    parser.add_argument(
+        "--hands", type=names_of((*HANDS, *PEOPLE)), default=[], help="other drawings (default: none)"
+    )
+    parser.add_argument("--true-warp", action="store_true", help="localize on straightened drawings as well")
     parser.add_argument("--statistics", action="store_true", help="only measure the drawings")
     parser.add_argument("--figure", type=Path, help="only draw one building at six severities")
     add_jobs(parser)
@@ -83,32 +96,66 @@ def measure(arguments: argparse.Namespace) -> Figures:
     persons = range(arguments.people)
     if arguments.statistics:
         return {"statistics": measure_drawings(arguments.buildings, persons)}
+    rungs = rungs_of(arguments)
     tasks = [
-        Task(building, rung_name(severity, person), arguments.episodes)
-        for severity in arguments.severities
-        for building in arguments.buildings
-        for person in persons
+        Task(building, way, arguments.episodes)
+        for rung in rungs.values()
+        for building, hands in rung.items()
+        for way in ways_of(hands, true_warp=arguments.true_warp)
     ]
     stream = follow_all(tasks, arguments.jobs, reuse=False)
+    print(head(true_warp=arguments.true_warp))
     rows: Figures = {}
-    print(f"{'severity':>8s} {'building':13s}{'room at end':>12s}{'last 10 m':>11s}{'sure+wrong':>12s}")
-    for severity in arguments.severities:
+    for name, rung in rungs.items():
         row: Figures = {}
-        for building in arguments.buildings:
-            row[building] = summarize([next(stream) for _ in persons])
-            print(line(severity, building, row[building]), flush=True)
+        for building, hands in rung.items():
+            row[building] = summarize([next(stream) for _ in hands])
+            if arguments.true_warp:
+                straight = summarize([next(stream) for _ in hands])
+                row[building] |= {f"{WITH_TRUE_WARP}{key}": value for key, value in straight.items()}
+            print(line(name, building, row[building]), flush=True)
         row["mean"] = mean_of(list(row.values()))
-        print(line(severity, "mean", row["mean"]), flush=True)
-        rows[f"{severity:g}"] = row
+        print(line(name, "mean", row["mean"]), flush=True)
+        rows[name] = row
     return rows
 
 
-def line(severity: float, building: str, row: Figures) -> str:
-    """Format the figures of a building at a severity, or of the mean."""
-    return (
-        f"{severity:8g} {building:13s}{row['room_end']:12.2f}{row['room_last10']:11.2f}"
-        f"{row['confident_wrong']:12.3f}"
-    )
+def rungs_of(arguments: argparse.Namespace) -> dict[str, dict[str, list[str]]]:
+    """List the hands of each building, by severity and then by the names of other hands."""
+    rungs = {
+        f"{severity:g}": {
+            building: [rung_name(severity, person) for person in range(arguments.people)]
+            for building in arguments.buildings
+        }
+        for severity in arguments.severities
+    }
+    others = {
+        hand: {building: [hand] for building, _ in drawings(arguments.buildings, [hand])}
+        for hand in arguments.hands
+    }
+    return rungs | {hand: rung for hand, rung in others.items() if rung}
+
+
+def ways_of(hands: Sequence[str], *, true_warp: bool) -> list[str]:
+    """List drawings as they are, then straightened if that is wanted."""
+    return [*hands, *(straight_name(hand) for hand in hands if true_warp)]
+
+
+def head(*, true_warp: bool) -> str:
+    """Name the columns."""
+    cells = "".join(f"{title:>{width}s}" for title, width in SCORES.values())
+    beside = f"{'| true warp taken out:':>23s}{cells}" if true_warp else ""
+    return f"{'drawing':10s} {'building':13s}{cells}{beside}"
+
+
+def line(name: str, building: str, row: Figures) -> str:
+    """Format the figures of a building on a rung, or of the mean."""
+    text = f"{name:10s} {building:13s}"
+    for prefix, gap in (("", ""), (WITH_TRUE_WARP, f"{'|':>2s}{'':21s}")):
+        if f"{prefix}room_end" in row:
+            cells = [f"{row[f'{prefix}{key}']:{width}.3f}" for key, (_, width) in SCORES.items()]
+            text += gap + "".join(cells)
+    return text
 
 
 def summarize(followed: Sequence[Followed]) -> Figures:

@@ -15,7 +15,7 @@ import platformdirs
 from benchmarks.lib import people
 from benchmarks.lib.data import LOGS, ROOT, drawing_of, folder_of
 from benchmarks.lib.results import commit_of
-from benchmarks.lib.rungs import is_rung, rung_of
+from benchmarks.lib.rungs import STRAIGHT, is_rung, is_straight, rung_of, straight_of
 from pilotage.evaluation.episodes import Trace, follow, spread_episodes, way_along
 from pilotage.evaluation.rooms import Rooms, read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.trajectory import associate
@@ -85,15 +85,15 @@ def travel_of(building: str, hand: str) -> Travel:
     truth = read_trajectory(LOGS / f"{building}.truth.tum")
     stamps = np.array([reading.scan.stamp for reading in log])
     positions = truth.poses[associate(stamps, truth), :2]
-    rooms = read_world_rooms(folder_of(building, hand) / "rooms.geojson")
+    rooms = read_world_rooms(folder_of(building, hand.removeprefix(STRAIGHT)) / "rooms.geojson")
     return Travel(tuple(log.readings), positions, rooms.names_at(positions), way_along(positions))
 
 
 @cache
 def sketch_of(building: str, hand: str) -> Sketch:
     """Read a drawing, or make it if it is one of the ladder."""
-    if is_rung(hand):
-        plan = rung_of(building, hand)
+    if is_rung(hand) or is_straight(hand):
+        plan = straight_of(building, hand) if is_straight(hand) else rung_of(building, hand)
         drawing, rooms = plan.sketch, plan.rooms
     elif building == people.SKETCHED:
         drawing, rooms = open_map(people.FOLDER / f"{hand}.png"), people.regions_of(hand)[0]

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from benchmarks.lib.people import read_matches, regions
-from benchmarks.lib.rungs import is_rung, rung_name
+from benchmarks.lib.rungs import is_rung, is_straight, rung_name, straight_name
 
 MATCHES = """# sketch.png plan.png
 # 0match set
@@ -48,3 +48,5 @@ def test_a_rung_is_told_from_other_hands():
     assert "ladder-0.5-3" == rung_name(0.5, 3)
     assert is_rung(rung_name(1.0, 0))
     assert not is_rung("freehand")
+    assert not is_rung(straight_name(rung_name(0.5, 3)))
+    assert is_straight(straight_name("freehand"))

@@ -84,3 +84,25 @@ def test_openings_are_found_and_all_rooms_stay_joined():
 def test_a_severity_that_means_nothing_is_refused(severity):
     with pytest.raises(ValueError, match="severity must be"):
         deform(PLAN, severity, 0)
+
+
+@pytest.mark.parametrize("person", range(2))
+def test_the_true_warp_leads_back_to_the_building(person):
+    straight = deform(PLAN, 0.0, person).straightened()
+
+    strayed = shapely.difference(straight.strokes, shapely.buffer(PLAN.straightened().strokes, 0.05))
+    assert strayed.length < 0.02 * straight.strokes.length
+    np.testing.assert_array_equal(straight.warp.in_sketch, straight.warp.in_world)
+
+
+def test_without_the_warp_a_bent_drawing_has_true_proportions():
+    rooms = read_world_rooms(OFFICE.folder / "rooms.geojson")
+    bent = deform(PLAN, 0.6, 1)
+    true = dict(zip(PLAN.rooms.names, PLAN.straightened().rooms.polygons, strict=True))
+
+    straight = bent.straightened()
+
+    for name, room in zip(straight.rooms.names, straight.rooms.polygons, strict=True):
+        overlap = room.buffer(0.0).intersection(true[name]).area / true[name].area
+        assert overlap > 0.8, name
+    assert statistics_of(straight, PLAN.warp.in_world, rooms).stretch_median < 1.01

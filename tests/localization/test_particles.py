@@ -175,3 +175,15 @@ def test_particles_that_are_all_improbable_are_kept(monkeypatch):
     tracks = cluster(near(1.5, 1.5, 0.0, 500, 0.0), -3.0, ATLAS, FEW, np.random.default_rng(0))
 
     assert 0 < len(tracks.particles)
+
+
+def test_a_place_is_told_where_the_densest_point_lies_between_particles_of_a_small_scale():
+    small, large = -2.0, 1.0
+    few = [[x, 5.0, 0.0, small, 0.0, 0.0] for x in (4.0, 5.0)]
+    many = [[0.5 + 0.9 * k, 1.0, 0.0, large, 0.0, 0.0] for k in range(10)]
+    states = np.array([*few, *many]).T
+    weights = np.log(np.array([0.2, 0.2, *[0.06] * 10]))
+
+    hypotheses = find_hypotheses(Particles(states, weights), ATLAS)
+
+    assert all(np.isfinite(one.sketch_from_base.pose.position).all() for one in hypotheses)

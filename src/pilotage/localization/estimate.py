@@ -165,10 +165,8 @@ def find_hypotheses(particles: Particles, atlas: Atlas) -> tuple[PoseHypothesis,
     while len(found) < MAX_HYPOTHESES:
         middle, scale = _densest(particles, remaining, atlas)
         distance = np.hypot(particles.states[X] - middle[0], particles.states[Y] - middle[1]) / scale
-        distance = np.where(remaining > 0.0, distance, np.inf)
-        members = distance <= max(
-            RADIUS, float(distance.min())
-        )  # one at least, however small the scale there
+        radius = max(RADIUS, float(distance[remaining > 0.0].min()))  # scales may differ: never none
+        members = (distance <= radius) & (remaining > 0.0)
         if found and mass * float(remaining[members].sum()) < MIN_PROBABILITY:
             break
         found.append(_hypothesis(particles.states[:, members], remaining[members], mass, atlas))

@@ -15,6 +15,8 @@ from pilotage.maps import SchematicMap
 
 CONTROL_SPACING = 1.5
 """[m] Between the control points that are added inside rooms."""
+CARRIED_STEP = 0.25
+"""[m] Strokes are carried back to the building in pieces of this length, at the most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +44,27 @@ class Plan:
         warp = Warp(self.warp.in_world, carry(self.warp.in_sketch))
         return replace(self, strokes=shapely.transform(self.strokes, carry), rooms=rooms, warp=warp)
 
+    def straightened(self) -> Self:
+        """Take the true warp out: carry all strokes and rooms back to the building [m].
+
+        What remains is what the drawing leaves out, adds and moves from its place, and the hand. Where the
+        drawing folds over, strokes are carried by the nearest triangle that does not.
+        """
+        step = CARRIED_STEP * self.scale
+
+        def carry(geometry: shapely.Geometry) -> shapely.Geometry:
+            return shapely.transform(shapely.segmentize(geometry, step), self.warp.world_from_sketch)
+
+        rooms = Rooms(self.rooms.names, tuple(carry(room) for room in self.rooms.polygons))
+        return replace(
+            self, strokes=carry(self.strokes), rooms=rooms, warp=Warp(self.warp.in_world, self.warp.in_world)
+        )
+
+    @property
+    def scale(self) -> float:
+        """Median local scale [drawing units per metre]."""
+        return float(np.median(np.sqrt(np.abs(np.linalg.det(self.warp.there.maps[:, :2])))))
+
 
 def read_plan(path: Path) -> Plan:
     """Read a drawing and the truth beside it; its unit becomes the metre, of the median scale."""
@@ -50,8 +73,7 @@ def read_plan(path: Path) -> Plan:
     polygons = tuple(shapely.transform(room, sketch.sketch_from_file) for room in drawn.polygons)
     lines = [np.vstack([one.vertices, one.vertices[: one.closed]]) for one in sketch.strokes]
     plan = Plan(shapely.MultiLineString(lines), Rooms(drawn.names, polygons), warp)
-    scale = float(np.median(np.sqrt(np.abs(np.linalg.det(warp.there.maps[:, :2])))))
-    return with_dense_control(plan.moved(np.eye(2) / scale))
+    return with_dense_control(plan.moved(np.eye(2) / plan.scale))
 
 
 def with_dense_control(plan: Plan) -> Plan:
