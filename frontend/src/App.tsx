@@ -2,14 +2,14 @@
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
 import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { ApiError, listDrawings, loadDrawing, loadExample } from "./api";
+import { ApiError, listDrawings, sendRecording, SVG } from "./api";
 import { Dialog, MeasureDialog } from "./Dialog";
 import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapsAt, wallAt, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView, type Fate } from "./DriveView";
-import { FileMenu, NameField, Welcome, type Opening } from "./Files";
-import { openContent } from "./opening";
+import { FileMenu, NameField, Welcome } from "./Files";
+import { saveFile, stem } from "./disk";
 import { cellAt, Findings, Overlay, toScene, type View } from "./Overlay";
 import { COLOR, goalOf, newGoal, newMeasure, newStart, roleOf, scaleOf, startOf, type Element } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
@@ -17,6 +17,7 @@ import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive } from "./useDrive";
+import { useOpening } from "./useOpening";
 import { useUnderstanding } from "./useUnderstanding";
 
 type Style = keyof typeof COLOR;
@@ -94,36 +95,19 @@ export function App() {
     setGoalName("");
   }, [editor]);
 
-  const openBlob = useCallback(async (name: string, content: Blob, title: string) => {
-    const opened = await openContent(name, content);
-    show(opened);
-    save.adopt({ name: "", base: stem(title), tag: null }, whole());
-    if (opened.notes.length) tell(opened.notes.join("; "));
-  }, [save, show, tell, whole]);
-
-  const openNamed = useCallback(async (name: string) => {
-    const { text, tag } = await loadDrawing(name);
-    const opened = await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }));
-    show(opened);
-    const own = text.includes("drawing-table-scene");
-    save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());
-    if (!own) tell(`${name} stays as it is; what you change is saved as a copy`);
-  }, [save, show, tell, whole]);
-
-  const guarded = useCallback((action: () => Promise<void>) => {
-    save.saveNow().then(action).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
-  }, [save, tell]);
-
-  const opening: Opening = {
-    openDrawing: (name) => guarded(() => openNamed(name)),
-    openExample: (name) => guarded(async () => openBlob(name.endsWith(".svg") ? name.split("/").at(-1)! : "example.svg", new Blob([await loadExample(name)], { type: "image/svg+xml" }), name)),
-    openFile: (file) => guarded(() => openBlob(file.name, file, file.name)),
-    openEmpty: () => guarded(async () => {
-      show({ elements: [], files: {} });
-      save.adopt({ name: "", base: "drawing", tag: null }, whole());
-      editor?.setActiveTool({ type: "freedraw" });
-    }),
-  };
+  const watch = useCallback((file: File) => {
+    sendRecording(file).then(
+      (recording) => {
+        setChoice((before) => ({ ...before, recording, world: "" }));
+        leave();
+        setDriving(true);
+        setWelcome(false);
+      },
+      (problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)),
+    );
+  }, [leave, tell]);
+  const beginDrawing = useCallback(() => editor?.setActiveTool({ type: "freedraw" }), [editor]);
+  const { opening, openNamed, guarded, origin } = useOpening({ save, whole, show, tell, watch, begin: beginDrawing });
 
   // Once, when the editor is ready: go on with what the address names.
   const began = useRef(false);
@@ -197,22 +181,19 @@ export function App() {
   const go = () => {
     const start = startOf(elements());
     const goal = goalName || goalOf(elements());
+    const drawn = { content: { media: SVG, text: plain() } };
     setFate("none");
     setTool("none");
     if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
     begin({
-      type: "start", content: { media: "image/svg+xml", text: plain() }, ...(goal ? { goal } : {}),
-      ...(start && choice.tellStart ? { start } : {}), ...orderOf(choice),
+      type: "start", ...((choice.recording && origin()) || drawn), ...(goal && !choice.recording ? { goal } : {}),
+      ...(start && choice.tellStart && !choice.recording ? { start } : {}), ...orderOf(choice),
     });
   };
 
   const download = (kind: "svg" | "excalidraw") => {
     const text = kind === "svg" ? drawingToSvg(elements(), files()) : sceneText(elements(), files());
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type: kind === "svg" ? "image/svg+xml" : "application/json" }));
-    link.download = `${stem(save.document.name || save.document.base)}.${kind}`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    saveFile(`${stem(save.document.name || save.document.base)}.${kind}`, new Blob([text], { type: kind === "svg" ? SVG : "application/json" }));
   };
 
   const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
@@ -300,7 +281,7 @@ export function App() {
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}
-          hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} go={go}
+          hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} watch={watch} go={go}
         />
       )}
       {measuring && (
@@ -334,7 +315,6 @@ async function freeName(base: string): Promise<string> {
   throw new ApiError(`there are too many drawings called ${base}`, 0);
 }
 
-const stem = (name: string) => (name.split("/").at(-1) ?? "").replace(/\.[a-z0-9]+$/i, "").replace(/-\d+$/, "") || "drawing";
 const nameOf = (cells: Cell[] | undefined, id: string) => cells?.find((cell) => cell.id === id)?.name || id;
 const recolored = (one: Element, style: Style): Element =>
   ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;

@@ -1,8 +1,8 @@
 // Below a drive: what it is about in words, pause and speed, the fate that one may play, and the timeline.
+import { SPEEDS } from "./DriveSetup";
 import { percent, type Fate } from "./DriveView";
 import type { Drive, Order } from "./useDrive";
 
-const SPEEDS = [1, 2, 5, 10, 20];
 const FATES: { fate: Fate; text: string; hint: string }[] = [
   { fate: "goal", text: "New goal", hint: "click a place on the drawing" },
   { fate: "door", text: "Door", hint: "click a door in the world to close or open it" },
@@ -25,7 +25,8 @@ interface Props {
 export function DriveControls({ drive, fate, setFate, send, restart, leave }: Props) {
   const { frame, done, session, paused } = drive;
   const believed = frame?.believed;
-  const hint = FATES.find((one) => one.fate === fate)?.hint ?? (frame?.world ? "drag the robot in the world to carry it elsewhere" : "");
+  const isDrive = session?.kind === "drive";
+  const hint = FATES.find((one) => one.fate === fate)?.hint ?? (isDrive && !done ? "drag the robot in the world to carry it elsewhere" : "");
   return (
     <section className="drive-controls" aria-label="Drive">
       <p className={`status ${believed?.status ?? ""}`} role="status" data-testid="status" data-outcome={done?.outcome ?? ""}>
@@ -55,17 +56,17 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
         <button onClick={restart}>Restart</button>
         <button onClick={leave}>Back to the drawing</button>
       </div>
-      {!done && (
+      {isDrive && (
         <div className="row" role="group" aria-label="Play fate">
           <span className="quiet">Play fate:</span>
-          {FATES.filter((one) => one.fate === "goal" || drive.world).map((one) => (
+          {FATES.filter((one) => one.fate === "goal" || !done).map((one) => (
             <button key={one.fate} aria-pressed={fate === one.fate} onClick={() => setFate(fate === one.fate ? "none" : one.fate)}>{one.text}</button>
           ))}
           <span className="quiet">{hint}</span>
         </div>
       )}
       <Timeline drive={drive} send={send} />
-      {session && (
+      {isDrive && (
         <div className="row quiet">
           Take with you:
           <a href={`/api/sessions/${session.session}/film`} download="drive.gif">film</a>
@@ -94,7 +95,7 @@ function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void 
         aria-label="Timeline: look back at any moment" aria-valuetext={clock(now)} data-testid="timeline"
         onChange={(event) => send({ type: "scrub", t: Number(event.target.value) })}
       />
-      <button disabled={drive.frame?.live !== false} onClick={() => send({ type: "scrub", t: null })}>Now</button>
+      <button disabled={drive.frame?.live !== false} hidden={drive.session?.kind === "journal"} onClick={() => send({ type: "scrub", t: null })}>Now</button>
       <ol className="log" aria-label="What happened" data-testid="marks">
         {drive.marks.slice(-4).map((mark, k) => (
           <li key={k}><span>{clock(mark.t)}</span> {mark.text || mark.kind}</li>

@@ -17,6 +17,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   const { session, frame, world } = drive;
   const believed = frame?.believed;
   const truth = frame?.world;
+  const canCarry = session?.kind === "drive" && !drive.done;
 
   const paintBelieved = (brush: Brush) => {
     for (const stroke of session?.drawing.strokes ?? []) line(brush, stroke.points, COLOR.ink, 2.2, stroke.closed);
@@ -86,11 +87,11 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
           <figcaption>What is true</figcaption>
           <PlanCanvas
             testId="world"
-            label="The world as it is, with the robot in it. Drag the robot to carry it elsewhere."
+            label={`The world as it is, with the robot in it.${canCarry ? " Drag the robot to carry it elsewhere." : ""}`}
             bounds={world.bounds}
             places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-door": middle(world.doors[0]?.segment) }}
             paint={paintWorld}
-            grabs={(at, pixel) => !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
+            grabs={(at, pixel) => canCarry && !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
             onDrag={(_, to, released) => {
               setCarried(released ? null : to);
               if (released) send({ type: "kidnap", x: to[0], y: to[1] });

@@ -1,5 +1,5 @@
 // Requests to the server. Every refusal is an ApiError with one sentence that a person can read.
-import type { Understanding, Upload, WorldChoice } from "./types";
+import type { RecordingChoice, Understanding, Upload, WorldChoice } from "./types";
 
 export const SVG = "image/svg+xml";
 
@@ -44,6 +44,15 @@ export async function listExamples(): Promise<Listed[]> {
 
 export async function listWorlds(): Promise<WorldChoice[]> {
   return (await (await ask("/api/worlds")).json()).worlds;
+}
+
+export async function listRecordings(): Promise<RecordingChoice[]> {
+  return (await (await ask("/api/recordings")).json()).recordings;
+}
+
+export async function sendRecording(file: File): Promise<RecordingChoice> {
+  const answer = await ask(`/api/recordings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+  return answer.json();
 }
 
 export async function loadDrawing(name: string): Promise<{ text: string; tag: string }> {

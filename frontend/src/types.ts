@@ -110,6 +110,7 @@ export interface Mark {
 
 export interface Session {
   session: string;
+  kind: "drive" | "log" | "journal";
   title: string;
   drawing: { bounds: [number, number, number, number]; strokes: Stroke[]; labels: Upload["labels"]; goal: Point | null };
   speed: number;
@@ -121,4 +122,10 @@ export interface WorldChoice {
   id: string;
   title: string;
   drawings: string[];
+}
+
+export interface RecordingChoice {
+  id: string;
+  title: string;
+  kind: "log" | "journal";
 }

@@ -39,7 +39,7 @@ def build_app(table: Table, access: Access, static: Path = STATIC) -> Starlette:
             yield
         finally:
             tidying.cancel()
-            table.sessions.close()
+            table.close()
 
     app = Starlette(
         routes=routes(static),
@@ -71,7 +71,8 @@ def routes(static: Path) -> list[Route | WebSocketRoute | Mount]:
         Route("/api/uploads", files.upload, methods=["POST"]),
         Route("/api/understand", files.understand, methods=["POST"]),
         Route("/api/worlds", files.list_worlds),
-        Route("/api/logs", files.list_logs),
+        Route("/api/recordings", files.list_recordings),
+        Route("/api/recordings", files.send_recording, methods=["POST"]),
         Route("/api/sessions", lives.list_sessions),
         Route("/api/sessions/{number}", lives.forget_session, methods=["DELETE"]),
         *(

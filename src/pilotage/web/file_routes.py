@@ -1,5 +1,6 @@
 """Routes for files: drawings in the folder, examples, uploads and worlds, and what is understood of them."""
 
+import asyncio
 from collections.abc import AsyncIterator
 from importlib.metadata import version
 from pathlib import PurePosixPath
@@ -9,7 +10,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from pilotage.web import work
-from pilotage.web.folder import LOGS, WORLDS, ChangedError
+from pilotage.web.folder import RECORDINGS, WORLDS, ChangedError
 from pilotage.web.order import OrderError, Place, Sent, numbers
 from pilotage.web.table import table_of
 from pilotage.worlds import ALL, PackedWorld
@@ -35,10 +36,6 @@ EXAMPLES = {f"{packed.name}/{hand}": (packed, hand) for packed in ALL for hand i
 """Drawings of the packed worlds, by name."""
 
 
-PACKED_LOG = "packed:office"
-"""The packed log, of a drive through the packed office."""
-
-
 def describe_server(request: Request) -> Response:
     """Say what this server is."""
     limits = {"drawing": LARGEST_DRAWING, "upload": LARGEST_UPLOAD}
@@ -48,6 +45,7 @@ def describe_server(request: Request) -> Response:
             "version": version("pilotage"),
             "folder": table_of(request).folder.root.resolve().name,
             "uploads": list(UPLOADS),
+            "recordings": list(RECORDINGS),
             "limits": limits,
         }
     )
@@ -126,12 +124,16 @@ def list_worlds(request: Request) -> Response:
     return JSONResponse({"worlds": packed + files})
 
 
-def list_logs(request: Request) -> Response:
-    """List logs that can be replayed on a drawing."""
-    packed = {"id": PACKED_LOG, "title": "office", "drawings": ["office/careful", "office/quick"]}
-    names = table_of(request).folder.names(LOGS)
-    files = [{"id": f"file:{name}", "title": name, "drawings": []} for name in names]
-    return JSONResponse({"logs": [packed, *files]})
+def list_recordings(request: Request) -> Response:
+    """List logs and journals that can be watched on a drawing."""
+    return JSONResponse({"recordings": table_of(request).recordings.list()})
+
+
+async def send_recording(request: Request) -> Response:
+    """Keep a log or a journal that was dropped on the page, to be watched as long as the server runs."""
+    content = await body_of(request, LARGEST_UPLOAD)
+    keep = table_of(request).recordings.keep
+    return JSONResponse(await asyncio.to_thread(keep, request.query_params.get("name", ""), content), 201)
 
 
 async def understand(request: Request) -> Response:

@@ -85,6 +85,7 @@ class Session:
         self.outcome: str | None = None
         self.crashed = False
         self.stands = False
+        self.seeks = False  # any moment can be asked for, what has not been shown too
         self.watched_at = time.monotonic()
         self._said: dict[str, str] = {}
         self._exports: dict[str, asyncio.Future[str]] = {}
@@ -176,9 +177,10 @@ class Session:
     def _note(self, kind: str, said: dict[str, object]) -> None:
         """Take note of what concerns the drive as a whole."""
         if kind == "session":
+            self.seeks = said["kind"] == "journal"
             said |= {"session": self.number, "resumed": False}
         elif kind == "state":
-            said["recorded"] = self.history.span or None
+            said.setdefault("recorded", self.history.span or None)
             self.stands = said["paused"] is True or said["over"] is True
             if said["over"] is False:
                 self.outcome = None
