@@ -1,6 +1,8 @@
 // Below a drive: what it is about in words, pause and speed, the fate that one may play, and the timeline.
 import { SPEEDS } from "./DriveSetup";
-import { percent, type Fate } from "./DriveView";
+import type { Fate } from "./DriveView";
+import { clock, percent } from "./numbers";
+import { TakeAlong } from "./TakeAlong";
 import type { Drive, Order } from "./useDrive";
 
 const FATES: { fate: Fate; text: string; hint: string }[] = [
@@ -66,14 +68,7 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
         </div>
       )}
       <Timeline drive={drive} send={send} />
-      {isDrive && (
-        <div className="row quiet">
-          Take with you:
-          <a href={`/api/sessions/${session.session}/film`} download="drive.gif">film</a>
-          <a href={`/api/sessions/${session.session}/picture`} download="drive.png">picture</a>
-          <a href={`/api/sessions/${session.session}/journal`} download="journal.jsonl">journal</a>
-        </div>
-      )}
+      <TakeAlong drive={drive} send={send} />
     </section>
   );
 }
@@ -104,5 +99,3 @@ function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void 
     </div>
   );
 }
-
-const clock = (t: number) => `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`;

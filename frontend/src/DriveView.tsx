@@ -1,5 +1,6 @@
 // A drive, side by side: what the robot believes on the drawing, and the world as it is.
 import { useRef, useState } from "react";
+import { percent } from "./numbers";
 import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
 import { PlanCanvas } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
@@ -105,8 +106,6 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   );
 }
 
-export const percent = (share: number) => `${Math.round(100 * share)} %`;
-
 const middle = (segment?: [number, number, number, number]) => (segment ? `${(segment[0] + segment[2]) / 2},${(segment[1] + segment[3]) / 2}` : "");
 const middleDistance = ([x1, y1, x2, y2]: [number, number, number, number], x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
 
@@ -133,19 +132,28 @@ function pieces(way: Point[]): Point[][] {
   return all;
 }
 
-/** The ways believed and true until the shown moment. A jump of the estimate begins a new line. */
+interface Seen {
+  t: number;
+  believed: Point;
+  true: Point | null;
+  sure: boolean;
+}
+
+/** The ways believed and true until the shown moment, as far as they were seen. A jump of the estimate begins a new line. */
 function useTrail(drive: Drive): { believed: Point[]; true: Point[][] } {
-  const kept = useRef<{ session: string; t: number; points: { t: number; believed: Point; true: Point | null; sure: boolean }[] }>({ session: "", t: -1, points: [] });
+  const kept = useRef<{ session: string; seen: Seen[] }>({ session: "", seen: [] });
   const { frame, session } = drive;
   const trail = kept.current;
-  if (session && trail.session !== session.session) Object.assign(trail, { session: session.session, t: -1, points: [] });
-  if (frame && frame.live && frame.t > trail.t) {
+  if (session && trail.session !== session.session) kept.current = { session: session.session, seen: [] };
+  const { seen } = kept.current;
+  if (frame) {
     const { pose, status } = frame.believed;
-    trail.points.push({ t: frame.t, believed: [pose[0], pose[1]], true: frame.world ? [frame.world.pose[0], frame.world.pose[1]] : null, sure: status === "located" });
-    trail.t = frame.t;
-    if (trail.points.length > TRAIL_POINTS) trail.points = trail.points.filter((_, k) => k % 2 === 0);
+    const before = seen.findLastIndex((one) => one.t <= frame.t);
+    const one = { t: frame.t, believed: [pose[0], pose[1]] as Point, true: frame.world ? ([frame.world.pose[0], frame.world.pose[1]] as Point) : null, sure: status === "located" };
+    if (seen[before]?.t !== frame.t) seen.splice(before + 1, 0, one);
+    if (seen.length > TRAIL_POINTS) kept.current.seen = seen.filter((_, k) => k % 2 === 0);
   }
-  const until = trail.points.filter((one) => one.t <= (frame?.t ?? 0));
+  const until = seen.filter((one) => one.t <= (frame?.t ?? 0));
   const lost = until.findLastIndex((one, k) => !one.sure || (k > 0 && jump(until[k - 1]!.believed, one.believed, drive)));
   return { believed: until.slice(lost + 1).map((one) => one.believed), true: pieces(until.flatMap((one) => (one.true ? [one.true] : []))) };
 }

@@ -43,6 +43,12 @@ def test_a_robot_reaches_the_goal_on_a_drawing_made_real(sheet: Sheet) -> None:
     timeline.fill("1")
     expect(sheet.page.get_by_role("button", name="Now")).to_be_enabled(timeout=PATIENCE_MS)
     sheet.shot("scrub")
+    with sheet.page.expect_download(timeout=8 * PATIENCE_MS) as video:
+        sheet.page.get_by_role("button", name="Video", exact=True).click()
+    content = video.value.path().read_bytes()
+    assert content[4:8] == b"ftyp" or content.startswith(b"\x1a\x45\xdf\xa3")  # MP4 or WebM
+    assert len(content) > 50_000
+    expect(sheet.page.get_by_role("button", name="Now")).to_be_disabled(timeout=PATIENCE_MS)
 
 
 def test_a_kidnapped_robot_doubts_and_finds_itself_again(sheet: Sheet) -> None:
