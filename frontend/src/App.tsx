@@ -2,15 +2,16 @@
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
 import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { ApiError, listDrawings, sendRecording, SVG } from "./api";
+import { sendRecording, SVG } from "./api";
+import { cellAt, describeCell } from "./cells";
 import { Dialog, MeasureDialog } from "./Dialog";
-import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapsAt, wallAt, type Gap } from "./doors";
+import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView, type Fate } from "./DriveView";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { saveFile, stem } from "./disk";
-import { cellAt, Findings, Overlay, toScene, type View } from "./Overlay";
+import { Findings, Overlay, toScene, type View } from "./Overlay";
 import { COLOR, goalOf, newGoal, newMeasure, newStart, roleOf, scaleOf, startOf, type Element } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
@@ -18,7 +19,7 @@ import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive } from "./useDrive";
 import { useOpening } from "./useOpening";
-import { useUnderstanding } from "./useUnderstanding";
+import { remark, useUnderstanding } from "./useUnderstanding";
 
 type Style = keyof typeof COLOR;
 const STYLES: Style[] = ["wall", "furniture", "ignore"];
@@ -49,7 +50,7 @@ export function App() {
   const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
   const plain = useCallback(() => drawingToSvg(elements(), null), [elements]);
   const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
-  const save = useAutosave(whole, revision, freeName);
+  const save = useAutosave(whole, revision);
   const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
   const { told, error } = useUnderstanding(plain, revision, routeEnds);
 
@@ -75,7 +76,7 @@ export function App() {
     const sum = all.reduce((total, one) => (total * 31 + one.versionNonce + (one.isDeleted ? 1 : 0)) % 9007199254, all.length);
     if (sum === version.current) return;
     version.current = sum;
-    performance.mark("stroke");
+    remark("stroke");
     setRevision((before) => before + 1);
     if (all.some((one) => !one.isDeleted)) setWelcome(false);
   }, []);
@@ -129,15 +130,7 @@ export function App() {
   const gaps = useMemo(() => (told?.gateways ?? []).map((one) => one.segment as Gap), [told]);
   const scale = scaleOf(elements());
 
-  /** Where the door tool would put a door, and the door it moves there. */
-  const doorOf = (from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap[] } | null => {
-    const width = doorWidth(elements(), gaps, scale);
-    const moved = isClick ? [] : gapsAt(elements(), from, width, view.zoom);
-    if (moved[0]) return { door: draggedDoor(moved[0], from, to), moved };
-    const wall = wallAt(elements(), from, view.zoom);
-    if (!wall) return null;
-    return { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: [] };
-  };
+  const doorOf = (from: Point, to: Point, isClick: boolean) => doorFor(elements(), doorWidth(elements(), gaps, scale), view.zoom, from, to, isClick);
 
   const useTool = (from: Point, to: Point, isClick: boolean) => {
     setPreview([]);
@@ -197,11 +190,7 @@ export function App() {
   };
 
   const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
-  const chosen = TOOLS.find((one) => one.tool === tool);
-  const area = hovered && scale ? `, about ${(areaOf(hovered) * scale ** 2).toFixed(0)} m2` : "";
-  const bottomLine = hovered
-    ? `${hovered.name || hovered.id}: ${hovered.size}${area}; ${hovered.neighbors.length ? `opens to ${hovered.neighbors.map((one) => nameOf(told?.cells, one.cell)).join(", ")}` : "no way in"}`
-    : (chosen?.hint ?? "");
+  const bottomLine = hovered ? describeCell(hovered, told, scale) : (TOOLS.find((one) => one.tool === tool)?.hint ?? "");
 
   return (
     <div
@@ -306,23 +295,5 @@ export function App() {
   );
 }
 
-async function freeName(base: string): Promise<string> {
-  const taken = new Set((await listDrawings()).map((one) => one.name.toLowerCase()));
-  for (let k = 1; k < 1000; k++) {
-    const name = `${base}${k > 1 ? `-${k}` : ""}.svg`;
-    if (!taken.has(name.toLowerCase())) return name;
-  }
-  throw new ApiError(`there are too many drawings called ${base}`, 0);
-}
-
-const nameOf = (cells: Cell[] | undefined, id: string) => cells?.find((cell) => cell.id === id)?.name || id;
 const recolored = (one: Element, style: Style): Element =>
   ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;
-
-function areaOf({ outline, holes }: Cell): number {
-  const ringArea = (ring: Point[]) => Math.abs(ring.reduce((sum, [x, y], k) => {
-    const [u, v] = ring[(k + 1) % ring.length]!;
-    return sum + x * v - u * y;
-  }, 0)) / 2;
-  return ringArea(outline) - holes.reduce((sum, hole) => sum + ringArea(hole), 0);
-}

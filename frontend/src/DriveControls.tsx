@@ -28,7 +28,7 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
   const { frame, done, session, paused } = drive;
   const believed = frame?.believed;
   const isDrive = session?.kind === "drive";
-  const hint = FATES.find((one) => one.fate === fate)?.hint ?? (isDrive && !done ? "drag the robot in the world to carry it elsewhere" : "");
+  const hint = FATES.find((one) => one.fate === fate && (fate === "goal" || !done))?.hint ?? (isDrive && !done ? "drag the robot in the world to carry it elsewhere" : "");
   return (
     <section className="drive-controls" aria-label="Drive">
       <p className={`status ${believed?.status ?? ""}`} role="status" data-testid="status" data-outcome={done?.outcome ?? ""}>

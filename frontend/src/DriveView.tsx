@@ -4,7 +4,7 @@ import { percent } from "./numbers";
 import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
 import { PlanCanvas } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
-import type { Point, Pose } from "./types";
+import type { Point, Pose, Segment } from "./types";
 
 export type Fate = "none" | "goal" | "door" | "box" | "person";
 
@@ -90,7 +90,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
             testId="world"
             label={`The world as it is, with the robot in it.${canCarry ? " Drag the robot to carry it elsewhere." : ""}`}
             bounds={world.bounds}
-            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-door": middle(world.doors[0]?.segment) }}
+            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-doors": world.doors.map((door) => middle(door.segment)).join(" ") }}
             paint={paintWorld}
             grabs={(at, pixel) => canCarry && !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
             onDrag={(_, to, released) => {
@@ -106,8 +106,8 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   );
 }
 
-const middle = (segment?: [number, number, number, number]) => (segment ? `${(segment[0] + segment[2]) / 2},${(segment[1] + segment[3]) / 2}` : "");
-const middleDistance = ([x1, y1, x2, y2]: [number, number, number, number], x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
+const middle = ([x1, y1, x2, y2]: Segment) => `${(x1 + x2) / 2},${(y1 + y2) / 2}`;
+const middleDistance = ([x1, y1, x2, y2]: Segment, x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
 
 const ring = ([x, y]: Pose, radius: number): Point[] =>
   Array.from({ length: 24 }, (_, k) => [x + radius * Math.cos((k * Math.PI) / 12), y + radius * Math.sin((k * Math.PI) / 12)]);

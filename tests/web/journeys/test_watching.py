@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -18,13 +19,13 @@ def clock(page: Page) -> float:
     return float(page.get_by_test_id("timeline").input_value())
 
 
-def wait_for(page: Page, since: float) -> None:
-    """Wait until a later moment is shown."""
+def wait_for(page: Page, is_right: Callable[[float], bool]) -> None:
+    """Wait until a moment [s] is shown of which something holds."""
     for _ in range(PATIENCE_MS // 100):
-        if clock(page) > since:
+        if is_right(clock(page)):
             return
         page.wait_for_timeout(100)
-    raise AssertionError(f"nothing later than {since} s was shown")
+    raise AssertionError(f"{clock(page)} s is shown")
 
 
 def test_a_log_is_dropped_on_a_drawing_and_watched_at_any_speed(sheet: Sheet) -> None:
@@ -39,15 +40,15 @@ def test_a_log_is_dropped_on_a_drawing_and_watched_at_any_speed(sheet: Sheet) ->
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=2 * PATIENCE_MS)
     expect(page.get_by_test_id("world")).to_have_count(0)
     expect(page.get_by_role("group", name="Play fate")).to_have_count(0)
-    wait_for(page, 5.0)
+    wait_for(page, lambda t: t > 5.0)
     page.get_by_role("button", name="Pause").click()
     sheet.shot("log")
     page.get_by_test_id("timeline").fill("1")
     expect(page.get_by_role("button", name="Now")).to_be_enabled(timeout=PATIENCE_MS)
-    assert clock(page) <= 1.0
+    wait_for(page, lambda t: t <= 1.0)
     page.get_by_role("button", name="Now").click()
     page.get_by_role("button", name="Go on").click()
-    wait_for(page, 6.0)
+    wait_for(page, lambda t: t > 6.0)
 
 
 def test_the_journal_of_a_drive_is_watched_from_any_moment_on(
@@ -77,7 +78,7 @@ def test_the_journal_of_a_drive_is_watched_from_any_moment_on(
     sheet.ended("over")
     page.get_by_test_id("timeline").fill("1")
     expect(sheet.status).to_have_attribute("data-outcome", "", timeout=PATIENCE_MS)
-    assert clock(page) < late["stamp"]
+    wait_for(page, lambda t: t < late["stamp"])
 
 
 def drive_through_the_office(path: Path) -> list[dict]:
