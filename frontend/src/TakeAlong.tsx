@@ -1,12 +1,30 @@
 // What can be kept of a drive: a video that the browser makes, and the files that the server writes.
 import { useEffect, useRef, useState } from "react";
+import { loadExport } from "./api";
 import { saveFile } from "./disk";
 import { filmKind, shootFilm } from "./film";
 import { clock, percent } from "./numbers";
+import type { Session } from "./types";
 import type { Drive, Order } from "./useDrive";
+
+interface Kept {
+  path: string; // below that of the drive
+  file: string;
+  text: string;
+  of: Session["kind"][];
+}
+
+const KEPT: Kept[] = [
+  { path: "film", file: "drive.gif", text: "GIF", of: ["drive"] },
+  { path: "picture", file: "drive.png", text: "Picture", of: ["drive"] },
+  { path: "journal", file: "journal.jsonl", text: "Journal", of: ["drive"] },
+  { path: "corrected", file: "corrected.svg", text: "Corrected drawing", of: ["drive", "log"] },
+];
 
 export function TakeAlong({ drive, send }: { drive: Drive; send: (order: Order) => void }) {
   const [share, setShare] = useState<number | null>(null);
+  const [writing, setWriting] = useState("");
+  const [error, setError] = useState("");
   const stop = useRef(new AbortController());
   const now = useRef(drive);
   now.current = drive;
@@ -36,6 +54,14 @@ export function TakeAlong({ drive, send }: { drive: Drive; send: (order: Order) 
     if (film) saveFile(`drive.${kind.slice("video/".length).split(";")[0]}`, film);
   };
 
+  const keep = (what: Kept) => {
+    setWriting(what.text);
+    setError("");
+    loadExport(session.session, what.path)
+      .then((content) => saveFile(what.file, content), (problem: unknown) => setError(problem instanceof Error ? problem.message : String(problem)))
+      .finally(() => setWriting(""));
+  };
+
   return (
     <div className="row quiet" role="group" aria-label="Take with you">
       Take with you:
@@ -44,13 +70,11 @@ export function TakeAlong({ drive, send }: { drive: Drive; send: (order: Order) 
       ) : (
         <button onClick={() => stop.current.abort()}>Video: {percent(share)}, stop</button>
       )}
-      {session.kind === "drive" && (
-        <>
-          <a href={`/api/sessions/${session.session}/film`} download="drive.gif">GIF</a>
-          <a href={`/api/sessions/${session.session}/picture`} download="drive.png">picture</a>
-          <a href={`/api/sessions/${session.session}/journal`} download="journal.jsonl">journal</a>
-        </>
-      )}
+      {KEPT.filter((one) => one.of.includes(session.kind)).map((one) => (
+        <button key={one.path} disabled={writing !== ""} onClick={() => keep(one)}>{one.text}</button>
+      ))}
+      <span role="status">{writing && `writing: ${writing} ...`}</span>
+      {error && <span className="bad" role="alert">{error}</span>}
     </div>
   );
 }

@@ -64,6 +64,11 @@ export async function loadExample(name: string): Promise<string> {
   return (await ask(`/api/examples/${path(name)}`)).text();
 }
 
+/** What the server writes of a drive. */
+export async function loadExport(session: string, what: string): Promise<Blob> {
+  return (await ask(`/api/sessions/${session}/${what}`)).blob();
+}
+
 /** Saves a drawing; `tag` is the version it replaces, null if it must be new. Returns the new tag. */
 export async function saveDrawing(name: string, text: string, tag: string | null, leaving = false): Promise<string> {
   const condition: Record<string, string> = tag === null ? { "If-None-Match": "*" } : { "If-Match": `"${tag}"` };

@@ -3,7 +3,7 @@ import { useEffect, useState } from "react";
 import { ApiError, understand } from "./api";
 import type { Point, Understanding } from "./types";
 
-const PAUSE_MS = 250; // without a change, before the server is asked
+const PAUSE_MS = 100; // without a change, before the server is asked: a pen that is drawn moves more often
 
 export interface Understood {
   told: Understanding | null;

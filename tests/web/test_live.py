@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
 from starlette.testclient import TestClient
@@ -11,6 +12,7 @@ from starlette.testclient import TestClient
 from pilotage.web.table import Table
 from web_table import CLOSED, CONTENT, FLAT, LIVE, Talk
 
+SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
 
 
@@ -45,6 +47,7 @@ def check_record(client: TestClient, number: str) -> None:
     journal = client.get(f"/api/sessions/{number}/journal").text.splitlines()
     assert "reached" == json.loads(journal[-1])["outcome"]
     assert client.get(f"/api/sessions/{number}/picture").content.startswith(b"\x89PNG")
+    check_corrected(client.get(f"/api/sessions/{number}/corrected").text)
     with talking(client) as talk:
         talk.say("resume", session=number)
         assert talk.hear("session")["resumed"]
@@ -61,6 +64,26 @@ def check_record(client: TestClient, number: str) -> None:
         assert now["t"] < talk.hear("frame")["t"]
     assert 204 == client.delete(f"/api/sessions/{number}").status_code
     assert 404 == client.get(f"/api/sessions/{number}/journal").status_code
+
+
+def check_corrected(svg: str) -> None:
+    """The flat, drawn 200 x 120, is corrected to metres: a building of people's size, of the same shape."""
+    root = ET.fromstring(svg)  # noqa: S314  # our own
+    assert "1" == root.get("data-metres-per-unit")
+    _, _, width, height = (float(part) for part in (root.get("viewBox") or "").split())
+    assert 5.0 < width < 60.0
+    assert 1.0 < width / height < 3.0
+    assert {"kitchen", "office", "hall", "store"} == {one.text for one in root.iter(f"{SVG}text")}
+
+
+def test_a_drawing_is_not_corrected_by_a_robot_that_does_not_know(client: TestClient) -> None:
+    with talking(client) as talk:
+        session = talk.start(paused=True)
+        talk.hear("frame")
+        refused = client.get(f"/api/sessions/{session['session']}/corrected")
+
+    assert 504 == refused.status_code
+    assert "must be sure" in refused.json()["error"]
 
 
 def test_a_person_may_play_fate(client: TestClient) -> None:

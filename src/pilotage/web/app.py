@@ -19,6 +19,7 @@ from pilotage.web import live_routes as lives
 from pilotage.web.folder import NameRefusedError
 from pilotage.web.guard import Access, Guard
 from pilotage.web.openapi import document
+from pilotage.web.sessions import EXPORTS
 from pilotage.web.table import Table
 from pilotage.web.workers import RefusedError, WorkerError, warm_up
 
@@ -75,10 +76,7 @@ def routes(static: Path) -> list[Route | WebSocketRoute | Mount]:
         Route("/api/recordings", files.send_recording, methods=["POST"]),
         Route("/api/sessions", lives.list_sessions),
         Route("/api/sessions/{number}", lives.forget_session, methods=["DELETE"]),
-        *(
-            Route(f"/api/sessions/{{number}}/{kind}", lives.export_of(kind))
-            for kind in ("journal", "film", "picture")
-        ),
+        *(Route(f"/api/sessions/{{number}}/{kind}", lives.export_of(kind)) for kind in EXPORTS),
         WebSocketRoute("/api/live", lives.live),
         Mount("/", StaticFiles(directory=static, check_dir=False)),
     ]

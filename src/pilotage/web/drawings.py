@@ -128,7 +128,8 @@ def svg_of(sketch: SchematicMap) -> str:
     width = sketch.diagonal * STROKE
     margin = 4.0 * width
     box = f"{left - margin:g} {top - margin:g} {right - left + 2 * margin:g} {bottom - top + 2 * margin:g}"
-    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
+    scale = "" if sketch.metres_per_unit is None else f' data-metres-per-unit="{sketch.metres_per_unit:g}"'
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"{scale}>']
     lines.append(f'<g fill="none" stroke="#1b1b1f" stroke-width="{width:g}">')
     solid = {stroke.vertices.tobytes() for stroke in sketch.solids}
     lines += [

@@ -9,10 +9,12 @@ from pathlib import Path
 from pilotage.drives import Drive
 from pilotage.errors import PilotageError
 from pilotage.navigation import Step
+from pilotage.web.corrected import corrected_svg
 from pilotage.web.fate import FATES
 from pilotage.web.marks import changes
 from pilotage.web.order import FARTHEST, SPEEDS, Order, number, place, switch
 from pilotage.web.playback import Playback
+from pilotage.web.replay import Replay
 from pilotage.web.show import Show
 from pilotage.web.stage import Stage, set_stage
 
@@ -216,11 +218,20 @@ class Driver:
         path, kind = Path(str(message["path"])), str(message["kind"])
         failure = ""
         try:
-            write_export(kind, self._stage.record(), path, self._order.title)
+            if kind == "corrected":
+                path.write_text(self._corrected(), encoding="utf-8")
+            else:
+                write_export(kind, self._stage.record(), path, self._order.title)
         except (PilotageError, OSError, MemoryError) as error:
             failure = str(error) or "there is not enough memory"
         self._connection.send(("exported", self._show.stamp, {"path": str(path), "failure": failure}))
         self._due = time.monotonic()
+
+    def _corrected(self) -> str:
+        """Correct the drawing by what was seen so far."""
+        if not isinstance(self._show, Stage | Replay):
+            raise WatchedError("a journal holds no scans by which to correct a drawing")
+        return corrected_svg(self._show.navigator.planner.atlas, self._show.sightings)
 
 
 HANDLERS = {

@@ -96,6 +96,9 @@ PATHS: dict[str, dict[str, object]] = {
     "/api/sessions": {"get": operation("list drives")},
     "/api/sessions/{number}": {"delete": operation("end and forget a drive", status="204", number="path")},
     "/api/sessions/{number}/journal": {"get": operation("its journal, JSON Lines", number="path")},
+    "/api/sessions/{number}/corrected": {
+        "get": operation("the drawing as the robot found it, SVG in metres", number="path")
+    },
     "/api/sessions/{number}/film": {"get": operation("its film, GIF", number="path")},
     "/api/sessions/{number}/picture": {"get": operation("its picture, PNG", number="path")},
 }

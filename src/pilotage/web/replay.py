@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from pilotage.config import Settings
+from pilotage.correction import Sighting, append_sighting
 from pilotage.errors import PilotageError
 from pilotage.geometry import Twist
 from pilotage.io import open_log
@@ -65,6 +66,7 @@ class Replay:
     page: Page
     frames: FrameMaker = field(init=False)
     shown: tuple[Step, LaserScan] | None = None
+    sightings: list[Sighting] = field(default_factory=list)  # by which the drawing can be corrected
 
     def __post_init__(self) -> None:
         """Begin with what is there."""
@@ -99,6 +101,8 @@ class Replay:
             self.source.stamp, STILL, Behavior.REST, position.localized, times_lost=position.times_lost
         )
         self.shown = step, reading.scan
+        if position.is_fresh:
+            append_sighting(self.sightings, position.localizer, reading.scan)
         self.frames.note()
         return step
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pilotage.config import Settings
+from pilotage.correction import Sighting, append_sighting
 from pilotage.drives import Drive, Instant, set_out
 from pilotage.errors import FileError, PilotageError
 from pilotage.evaluation.warp import Warp, read_warp
@@ -48,6 +49,7 @@ class Stage:
     world_from_sketch: Carry | None = None
     boxes: Array = field(default_factory=lambda: np.empty((0, 4)))  # sides of what a person put there [m]
     instants: list[Instant] = field(default_factory=list)  # the record of the drive
+    sightings: list[Sighting] = field(default_factory=list)  # by which the drawing can be corrected
     frames: FrameMaker = field(init=False)
     scene: Scene = field(init=False)  # as it is shown
 
@@ -89,6 +91,8 @@ class Stage:
         self.scene = self.simulator.scene
         self.instants.append(Instant(step, self.scene, 1e3 * (time.process_time() - began)))
         del self.instants[: max(0, len(self.instants) - MOST_INSTANTS)]
+        if self.navigator.position.is_fresh:
+            append_sighting(self.sightings, self.navigator.position.localizer, reading.scan)
         self.frames.note()
         self.simulator.step(step.command)
         return step
