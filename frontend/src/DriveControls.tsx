@@ -41,8 +41,8 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
           <div><dt>time</dt><dd>{clock(frame.t)}</dd></div>
           <div><dt>sure</dt><dd data-testid="probability">{percent(believed.probability)}</dd></div>
           <div><dt>fit</dt><dd>{percent(believed.fit)}</dd></div>
-          <div><dt>speed</dt><dd>{frame.speed[0].toFixed(2)} m/s</dd></div>
-          <div><dt>to go</dt><dd>{believed.distance == null ? "?" : `${believed.distance.toFixed(0)} m`}</dd></div>
+          {session?.kind !== "log" && <div><dt>speed</dt><dd>{frame.speed[0].toFixed(2)} m/s</dd></div>}
+          {session?.kind !== "log" && <div><dt>to go</dt><dd>{believed.distance == null ? "?" : `${believed.distance.toFixed(0)} m`}</dd></div>}
           <div className="wide"><dt>places</dt><dd>{believed.places.slice(0, 3).map((one) => `${one.place || one.cell} ${percent(one.probability)}`).join(", ") || "none"}</dd></div>
         </dl>
       )}

@@ -98,7 +98,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
         </label>
       )}
       {recording?.kind !== "journal" && (
-        <label>
+        <label title="another seed is another building, and another try">
           Seed
           <input type="number" min={0} max={99999} value={choice.seed} onChange={(event) => change({ seed: Math.max(0, Math.round(Number(event.target.value))) })} />
         </label>

@@ -25,6 +25,8 @@ DIGITS = 4
 
 STROKE = 1.0 / 400.0
 """Width of the strokes of a drawing that was made of an upload, as a share of its diagonal."""
+LETTERS = 6.0
+"""Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
 
 
 class UnreadableError(PilotageError):
@@ -140,7 +142,7 @@ def svg_of(sketch: SchematicMap) -> str:
     if sketch.solids:
         rings = " ".join(path_of(page, ring) for ring in sketch.solids)
         lines.append(f'<path class="wall" fill="#1b1b1f" fill-rule="evenodd" stroke="none" d="{rings}"/>')
-    lines.append(f'</g><g font-size="{10.0 * width:g}" text-anchor="middle">')
+    lines.append(f'</g><g font-size="{LETTERS * width:g}" text-anchor="middle">')
     lines += [
         f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'
         for label in labels_of(sketch)
