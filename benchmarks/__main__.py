@@ -29,6 +29,7 @@ NAMES = (
     "looks",
     "people",
     "tracking",
+    "corrected",
     "navigation",
     "registration",
     "odometry",

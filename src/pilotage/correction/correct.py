@@ -1,6 +1,8 @@
 """The drawing as the robot found it: in metres, and what of it was seen."""
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +18,8 @@ from pilotage.correction.fit import Fit, Surfaces, fit
 from pilotage.correction.passages import find_passages
 from pilotage.correction.sighting import Sighting
 from pilotage.correction.walls import Carried, Pieces, associate
-from pilotage.geometry import Polyline
-from pilotage.maps import Atlas
+from pilotage.geometry import Polyline, Pose2
+from pilotage.maps import Atlas, SchematicMap
 
 BELIEVED = 0.5
 """Probability from which on an estimate is believed."""
@@ -34,7 +36,7 @@ class NothingBelievedError(ValueError):
 
 
 def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDrawing:
-    """Move the strokes of a drawing to where the robot saw its walls, in metres of its scan matching.
+    """Move the strokes of a drawing to where the robot saw its walls, in metres.
 
     Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not.
     """
@@ -43,7 +45,7 @@ def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDra
         raise NothingBelievedError(
             f"a correction needs {FEWEST} keyframes of at least probability {BELIEVED:g}, got {believed}"
         )
-    found = fit(atlas.sketch, sightings, BELIEVED)
+    found = laid_as_drawn(fit(atlas.sketch, sightings, BELIEVED), atlas.sketch)
     seen: list[Polyline] = []
     unseen: list[Polyline] = []
     sights = find_seen(atlas, sightings, found)
@@ -62,6 +64,18 @@ def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDra
         found.elastic,
         max(2.0 * found.half_thickness, 0.0),
     )
+
+
+def laid_as_drawn(found: Fit, sketch: SchematicMap) -> Fit:
+    """Turn all as the sheet lies, and move the lower left of the strokes near the origin."""
+    (a, _), (c, _) = found.elastic.linear
+    turn = Pose2(0.0, 0.0, -math.atan2(c, a))
+    vertices = np.vstack([stroke.vertices for stroke in sketch.strokes])
+    low = (turn @ (found.elastic @ vertices)).min(axis=0)
+    sheet_from_odom = Pose2(-float(low[0]), -float(low[1]), turn.theta)
+    poses = np.column_stack([sheet_from_odom @ found.path.places, found.path.poses[:, 2] + turn.theta])
+    elastic = replace(found.elastic, coefficients=sheet_from_odom @ found.elastic.coefficients)
+    return replace(found, elastic=elastic, path=replace(found.path, poses=poses))
 
 
 def find_seen(atlas: Atlas, sightings: Sequence[Sighting], found: Fit) -> list[NDArray[np.bool_]]:

@@ -39,7 +39,7 @@ class Passage:
 
 @dataclass(frozen=True, eq=False)
 class CorrectedDrawing:
-    """A drawing as the robot found it, y up, in metres; the frame is that of its scan matching."""
+    """A drawing as the robot found it, in metres, y up; it lies as on its sheet, the lower left at 0, 0."""
 
     sketch: SchematicMap  # the same strokes in the same order, and all marks [m]
     seen: tuple[Polyline, ...]  # stretches of strokes that the robot saw [m]

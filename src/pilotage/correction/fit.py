@@ -151,7 +151,10 @@ class Problem:
         sums = matrix.T @ right
         sums[:nodes] += self._rigid_sums[:, 0]
         sums[nodes : 2 * nodes] += self._rigid_sums[:, 1]
-        solution = splu((matrix.T @ matrix + prior).tocsc()).solve(sums)
+        normal = (matrix.T @ matrix + prior).tocsc()
+        solution = splu(
+            normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        ).solve(sums)
         elastic = replace(last.elastic, coefficients=solution[: 2 * nodes].reshape(2, nodes).T)
         return Fit(elastic, last.path.changed(solution[2 * nodes : -1]), float(solution[-1]))
 
