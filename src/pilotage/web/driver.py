@@ -58,7 +58,7 @@ class Driver:
         self._before: Step | None = None
         self._marks: list[dict[str, object]] = []
         self._over = False
-        self._due = self._shown_at = self._told_at = 0.0  # [s] on the clock
+        self._due = self._frame_due = self._told_at = 0.0  # [s] on the clock
         self._shown_t = -RECORD_EVERY  # [s] of the drive
 
     def run(self) -> None:
@@ -117,9 +117,9 @@ class Driver:
         if not isinstance(self._show, Playback):
             self._mark_all([step])
         now, t = time.monotonic(), self._show.stamp
-        is_due = now - self._shown_at >= FRAME_EVERY or t - self._shown_t >= RECORD_EVERY
+        is_due = now >= self._frame_due or t - self._shown_t >= RECORD_EVERY
         if is_due or self._show.is_over or self._paused:
-            self._shown_at, self._shown_t = now, t
+            self._frame_due, self._shown_t = max(self._frame_due + FRAME_EVERY, now), t
             self._send_frame()
         if self._show.is_over and step.outcome is not None:
             self._finish(step.outcome.value, step.reason)

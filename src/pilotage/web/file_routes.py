@@ -1,9 +1,10 @@
 """Routes for files: drawings in the folder, examples, uploads and worlds, and what is understood of them."""
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Coroutine
 from importlib.metadata import version
 from pathlib import PurePosixPath
+from typing import Any, TypeVar
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
@@ -15,6 +16,8 @@ from pilotage.web.order import OrderError, Place, Sent, numbers
 from pilotage.web.table import table_of
 from pilotage.worlds import ALL, PackedWorld
 
+Result = TypeVar("Result")
+
 LARGEST_DRAWING = 16 << 20
 """Bytes of a drawing; one with an embedded photo is large."""
 LARGEST_UPLOAD = 64 << 20
@@ -23,6 +26,8 @@ UNDERSTAND_WITHIN = 20.0
 """Time [s] to understand a drawing,"""
 READ_WITHIN = 60.0
 """and to read an upload: tracing a photo takes a while."""
+NOBODY_WAITS = 499
+"""Status of an answer that nobody gets."""
 
 MEDIA = {".svg": "image/svg+xml", ".excalidraw": "application/vnd.excalidraw+json"}
 """Media types of drawings."""
@@ -145,10 +150,24 @@ async def understand(request: Request) -> Response:
     sent = Sent(suffix, await body_of(request, LARGEST_DRAWING))
     told = [place_in_query(request, name) for name in ("from", "to")]
     ends = None if told[0] is None or told[1] is None else (told[0], told[1])
-    found = await table_of(request).jobs.run(
+    job = table_of(request).jobs.run(
         work.understand, sent, ends, within=UNDERSTAND_WITHIN, name="understanding this drawing"
     )
-    return JSONResponse(found)
+    return JSONResponse(await while_wanted(request, job))
+
+
+async def while_wanted(request: Request, job: Coroutine[Any, Any, Result]) -> Result:
+    """Return what a job returns; a job whose page has gone on is ended, and the next need not wait."""
+    working = asyncio.ensure_future(job)
+    leaving = asyncio.ensure_future(request.receive())  # the body was read: what comes is the end
+    try:
+        await asyncio.wait({working, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise HTTPException(NOBODY_WAITS, "nobody waits for this answer any more")
+    finally:
+        leaving.cancel()
+        working.cancel()
 
 
 def place_in_query(request: Request, name: str) -> Place | None:
