@@ -4,7 +4,7 @@ import { percent } from "./numbers";
 import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
 import { PlanCanvas } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
-import type { Point, Pose, Segment } from "./types";
+import type { Point, Pose, Segment, WayPoint } from "./types";
 
 export type Fate = "none" | "goal" | "door" | "box" | "person";
 
@@ -132,24 +132,17 @@ function pieces(way: Point[]): Point[][] {
   return all;
 }
 
-interface Seen {
-  t: number;
-  believed: Point;
-  true: Point | null;
-  sure: boolean;
-}
-
-/** The ways believed and true until the shown moment, as far as they were seen. A jump of the estimate begins a new line. */
+/** The ways believed and true until the shown moment, as far as they were seen or told. A jump of the estimate begins a new line. */
 function useTrail(drive: Drive): { believed: Point[]; true: Point[][] } {
-  const kept = useRef<{ session: string; seen: Seen[] }>({ session: "", seen: [] });
+  const kept = useRef<{ session: string; seen: WayPoint[] }>({ session: "", seen: [] });
   const { frame, session } = drive;
   const trail = kept.current;
-  if (session && trail.session !== session.session) kept.current = { session: session.session, seen: [] };
+  if (session && trail.session !== session.session) kept.current = { session: session.session, seen: [...(session.way ?? [])] };
   const { seen } = kept.current;
   if (frame) {
     const { pose, status } = frame.believed;
     const before = seen.findLastIndex((one) => one.t <= frame.t);
-    const one = { t: frame.t, believed: [pose[0], pose[1]] as Point, true: frame.world ? ([frame.world.pose[0], frame.world.pose[1]] as Point) : null, sure: status === "located" };
+    const one: WayPoint = { t: frame.t, believed: [pose[0], pose[1]], true: frame.world ? [frame.world.pose[0], frame.world.pose[1]] : null, sure: status === "located" };
     if (seen[before]?.t !== frame.t) seen.splice(before + 1, 0, one);
     if (seen.length > TRAIL_POINTS) kept.current.seen = seen.filter((_, k) => k % 2 === 0);
   }

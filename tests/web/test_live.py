@@ -239,6 +239,9 @@ def test_any_moment_of_a_journal_is_shown_as_it_was(client: TestClient) -> None:
         session, state = talk.hear("session"), talk.hear("state")
         assert "journal" == session["kind"]
         assert [0.0, lines[-1]["stamp"]] == state["recorded"]
+        assert [line["x"] for line in lines] == pytest.approx(
+            [one["believed"][0] for one in session["way"]], abs=0.1
+        )
         assert 0.0 == talk.hear("frame")["t"]
         for line in (lines[40], lines[3], lines[-1]):
             talk.say("scrub", t=line["stamp"])

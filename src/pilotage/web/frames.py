@@ -144,13 +144,18 @@ class FrameMaker:
 def true_pose(pose: Pose2, collisions: int) -> Json:
     """Describe where the robot truly is, in a world of which nothing else is known."""
     return {
-        "pose": [*world_points(np.array([pose.position]))[0], round(pose.theta, 3)],
+        "pose": [*true_place(pose), round(pose.theta, 3)],
         "scan": [],
         "people": [],
         "doors": [],
         "on_drawing": None,
         "collisions": collisions,
     }
+
+
+def true_place(pose: Pose2) -> list[float]:
+    """List a point of the world, y down."""
+    return world_points(np.array([pose.position]))[0]
 
 
 def describe_world(world: World, boxes: Array, goal: Array | None, stamp: float) -> Json:

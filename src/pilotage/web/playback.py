@@ -8,16 +8,19 @@ import numpy as np
 from pilotage.errors import FileError
 from pilotage.io import open_world
 from pilotage.io.journal_reader import Recorded, read_journal
+from pilotage.localization import Status
 from pilotage.maps import Atlas, CellGraph
 from pilotage.navigation import Step
 from pilotage.simulation import World
 from pilotage.web.drawings import Json, Page, describe_drawing
-from pilotage.web.frames import describe_world, told_frame, true_pose
+from pilotage.web.frames import describe_world, told_frame, true_place, true_pose, values
 from pilotage.web.order import RecordingOrder
 from pilotage.web.replay import graph_of
 
 LONGEST_PAUSE = 1.0
 """A journal that pauses longer than this [s] is not waited for."""
+WAY_POINTS = 1000
+"""Points of the way that are told, about."""
 LEAST_ON_IT = 0.5
 """Share of the places of a journal that are on its drawing, even if that was changed a little since."""
 MOST_CHECKED = 200
@@ -85,8 +88,22 @@ class Playback:
         return {**told, "world": true_pose(moment.world_from_base, moment.collisions)}
 
     def describe(self, title: str) -> Json:
-        """Describe the drawing."""
-        return {"kind": "journal", "title": title, "drawing": describe_drawing(self.page.sketch), "goal": ""}
+        """Describe the drawing, and the way that was driven."""
+        drawn = describe_drawing(self.page.sketch)
+        return {"kind": "journal", "title": title, "drawing": drawn, "goal": "", "way": self.way()}
+
+    def way(self) -> list[Json]:
+        """List where the robot believed to be, and truly was, thinned."""
+        first = self.moments[0].step.stamp
+        return [
+            {
+                "t": round(moment.step.stamp - first, 2),
+                "believed": self.page.pose(*values(moment.step.estimate.sketch_from_base.pose))[:2],
+                "true": None if moment.world_from_base is None else true_place(moment.world_from_base),
+                "sure": moment.step.estimate.status is Status.LOCATED,
+            }
+            for moment in self.moments[:: max(1, len(self.moments) // WAY_POINTS)]
+        ]
 
     def describe_world(self) -> Json | None:
         """Describe the world, if it is known."""
