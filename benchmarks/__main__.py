@@ -30,6 +30,7 @@ NAMES = (
     "looks",
     "people",
     "tracking",
+    "corrected",
     "navigation",
     "registration",
     "odometry",

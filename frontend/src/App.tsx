@@ -2,22 +2,24 @@
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
 import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { ApiError, listDrawings, loadDrawing, loadExample } from "./api";
+import { sendRecording, SVG } from "./api";
+import { cellAt, describeCell } from "./cells";
 import { Dialog, MeasureDialog } from "./Dialog";
-import { closeGap, cutDoor, doorAbout, doorBetween, doorWidth, draggedDoor, gapsAt, wallAt, type Gap } from "./doors";
+import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView, type Fate } from "./DriveView";
-import { FileMenu, NameField, Welcome, type Opening } from "./Files";
-import { openContent } from "./opening";
-import { cellAt, Findings, Overlay, toScene, type View } from "./Overlay";
+import { FileMenu, NameField, Welcome } from "./Files";
+import { saveFile, stem } from "./disk";
+import { Findings, Overlay, toScene, type View } from "./Overlay";
 import { COLOR, goalOf, newGoal, newMeasure, newStart, roleOf, scaleOf, startOf, type Element } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive } from "./useDrive";
-import { useUnderstanding } from "./useUnderstanding";
+import { useOpening } from "./useOpening";
+import { remark, useUnderstanding } from "./useUnderstanding";
 
 type Style = keyof typeof COLOR;
 const STYLES: Style[] = ["wall", "furniture", "ignore"];
@@ -48,7 +50,7 @@ export function App() {
   const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
   const plain = useCallback(() => drawingToSvg(elements(), null), [elements]);
   const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
-  const save = useAutosave(whole, revision, freeName);
+  const save = useAutosave(whole, revision);
   const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
   const { told, error } = useUnderstanding(plain, revision, routeEnds);
 
@@ -74,7 +76,7 @@ export function App() {
     const sum = all.reduce((total, one) => (total * 31 + one.versionNonce + (one.isDeleted ? 1 : 0)) % 9007199254, all.length);
     if (sum === version.current) return;
     version.current = sum;
-    performance.mark("stroke");
+    remark("stroke");
     setRevision((before) => before + 1);
     if (all.some((one) => !one.isDeleted)) setWelcome(false);
   }, []);
@@ -94,36 +96,19 @@ export function App() {
     setGoalName("");
   }, [editor]);
 
-  const openBlob = useCallback(async (name: string, content: Blob, title: string) => {
-    const opened = await openContent(name, content);
-    show(opened);
-    save.adopt({ name: "", base: stem(title), tag: null }, whole());
-    if (opened.notes.length) tell(opened.notes.join("; "));
-  }, [save, show, tell, whole]);
-
-  const openNamed = useCallback(async (name: string) => {
-    const { text, tag } = await loadDrawing(name);
-    const opened = await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }));
-    show(opened);
-    const own = text.includes("drawing-table-scene");
-    save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());
-    if (!own) tell(`${name} stays as it is; what you change is saved as a copy`);
-  }, [save, show, tell, whole]);
-
-  const guarded = useCallback((action: () => Promise<void>) => {
-    save.saveNow().then(action).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
-  }, [save, tell]);
-
-  const opening: Opening = {
-    openDrawing: (name) => guarded(() => openNamed(name)),
-    openExample: (name) => guarded(async () => openBlob(name.endsWith(".svg") ? name.split("/").at(-1)! : "example.svg", new Blob([await loadExample(name)], { type: "image/svg+xml" }), name)),
-    openFile: (file) => guarded(() => openBlob(file.name, file, file.name)),
-    openEmpty: () => guarded(async () => {
-      show({ elements: [], files: {} });
-      save.adopt({ name: "", base: "drawing", tag: null }, whole());
-      editor?.setActiveTool({ type: "freedraw" });
-    }),
-  };
+  const watch = useCallback((file: File) => {
+    sendRecording(file).then(
+      (recording) => {
+        setChoice((before) => ({ ...before, recording, world: "" }));
+        leave();
+        setDriving(true);
+        setWelcome(false);
+      },
+      (problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)),
+    );
+  }, [leave, tell]);
+  const beginDrawing = useCallback(() => editor?.setActiveTool({ type: "freedraw" }), [editor]);
+  const { opening, openNamed, guarded, origin } = useOpening({ save, whole, show, tell, watch, begin: beginDrawing });
 
   // Once, when the editor is ready: go on with what the address names.
   const began = useRef(false);
@@ -145,15 +130,7 @@ export function App() {
   const gaps = useMemo(() => (told?.gateways ?? []).map((one) => one.segment as Gap), [told]);
   const scale = scaleOf(elements());
 
-  /** Where the door tool would put a door, and the door it moves there. */
-  const doorOf = (from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap[] } | null => {
-    const width = doorWidth(elements(), gaps, scale);
-    const moved = isClick ? [] : gapsAt(elements(), from, width, view.zoom);
-    if (moved[0]) return { door: draggedDoor(moved[0], from, to), moved };
-    const wall = wallAt(elements(), from, view.zoom);
-    if (!wall) return null;
-    return { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: [] };
-  };
+  const doorOf = (from: Point, to: Point, isClick: boolean) => doorFor(elements(), doorWidth(elements(), gaps, scale), view.zoom, from, to, isClick);
 
   const useTool = (from: Point, to: Point, isClick: boolean) => {
     setPreview([]);
@@ -197,30 +174,23 @@ export function App() {
   const go = () => {
     const start = startOf(elements());
     const goal = goalName || goalOf(elements());
+    const drawn = { content: { media: SVG, text: plain() } };
     setFate("none");
     setTool("none");
     if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
     begin({
-      type: "start", content: { media: "image/svg+xml", text: plain() }, ...(goal ? { goal } : {}),
-      ...(start && choice.tellStart ? { start } : {}), ...orderOf(choice),
+      type: "start", ...((choice.recording && origin()) || drawn), ...(goal && !choice.recording ? { goal } : {}),
+      ...(start && choice.tellStart && !choice.recording ? { start } : {}), ...orderOf(choice),
     });
   };
 
   const download = (kind: "svg" | "excalidraw") => {
     const text = kind === "svg" ? drawingToSvg(elements(), files()) : sceneText(elements(), files());
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type: kind === "svg" ? "image/svg+xml" : "application/json" }));
-    link.download = `${stem(save.document.name || save.document.base)}.${kind}`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    saveFile(`${stem(save.document.name || save.document.base)}.${kind}`, new Blob([text], { type: kind === "svg" ? SVG : "application/json" }));
   };
 
   const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
-  const chosen = TOOLS.find((one) => one.tool === tool);
-  const area = hovered && scale ? `, about ${(areaOf(hovered) * scale ** 2).toFixed(0)} m2` : "";
-  const bottomLine = hovered
-    ? `${hovered.name || hovered.id}: ${hovered.size}${area}; ${hovered.neighbors.length ? `opens to ${hovered.neighbors.map((one) => nameOf(told?.cells, one.cell)).join(", ")}` : "no way in"}`
-    : (chosen?.hint ?? "");
+  const bottomLine = hovered ? describeCell(hovered, told, scale) : (TOOLS.find((one) => one.tool === tool)?.hint ?? "");
 
   return (
     <div
@@ -300,7 +270,7 @@ export function App() {
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}
-          hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} go={go}
+          hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} watch={watch} go={go}
         />
       )}
       {measuring && (
@@ -325,24 +295,5 @@ export function App() {
   );
 }
 
-async function freeName(base: string): Promise<string> {
-  const taken = new Set((await listDrawings()).map((one) => one.name.toLowerCase()));
-  for (let k = 1; k < 1000; k++) {
-    const name = `${base}${k > 1 ? `-${k}` : ""}.svg`;
-    if (!taken.has(name.toLowerCase())) return name;
-  }
-  throw new ApiError(`there are too many drawings called ${base}`, 0);
-}
-
-const stem = (name: string) => (name.split("/").at(-1) ?? "").replace(/\.[a-z0-9]+$/i, "").replace(/-\d+$/, "") || "drawing";
-const nameOf = (cells: Cell[] | undefined, id: string) => cells?.find((cell) => cell.id === id)?.name || id;
 const recolored = (one: Element, style: Style): Element =>
   ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;
-
-function areaOf({ outline, holes }: Cell): number {
-  const ringArea = (ring: Point[]) => Math.abs(ring.reduce((sum, [x, y], k) => {
-    const [u, v] = ring[(k + 1) % ring.length]!;
-    return sum + x * v - u * y;
-  }, 0)) / 2;
-  return ringArea(outline) - holes.reduce((sum, hole) => sum + ringArea(hole), 0);
-}

@@ -1,8 +1,10 @@
 // Below a drive: what it is about in words, pause and speed, the fate that one may play, and the timeline.
-import { percent, type Fate } from "./DriveView";
+import { SPEEDS } from "./DriveSetup";
+import type { Fate } from "./DriveView";
+import { clock, percent } from "./numbers";
+import { TakeAlong } from "./TakeAlong";
 import type { Drive, Order } from "./useDrive";
 
-const SPEEDS = [1, 2, 5, 10, 20];
 const FATES: { fate: Fate; text: string; hint: string }[] = [
   { fate: "goal", text: "New goal", hint: "click a place on the drawing" },
   { fate: "door", text: "Door", hint: "click a door in the world to close or open it" },
@@ -25,7 +27,8 @@ interface Props {
 export function DriveControls({ drive, fate, setFate, send, restart, leave }: Props) {
   const { frame, done, session, paused } = drive;
   const believed = frame?.believed;
-  const hint = FATES.find((one) => one.fate === fate)?.hint ?? (frame?.world ? "drag the robot in the world to carry it elsewhere" : "");
+  const isDrive = session?.kind === "drive";
+  const hint = FATES.find((one) => one.fate === fate && (fate === "goal" || !done))?.hint ?? (isDrive && !done ? "drag the robot in the world to carry it elsewhere" : "");
   return (
     <section className="drive-controls" aria-label="Drive">
       <p className={`status ${believed?.status ?? ""}`} role="status" data-testid="status" data-outcome={done?.outcome ?? ""}>
@@ -38,8 +41,8 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
           <div><dt>time</dt><dd>{clock(frame.t)}</dd></div>
           <div><dt>sure</dt><dd data-testid="probability">{percent(believed.probability)}</dd></div>
           <div><dt>fit</dt><dd>{percent(believed.fit)}</dd></div>
-          <div><dt>speed</dt><dd>{frame.speed[0].toFixed(2)} m/s</dd></div>
-          <div><dt>to go</dt><dd>{believed.distance == null ? "?" : `${believed.distance.toFixed(0)} m`}</dd></div>
+          {session?.kind !== "log" && <div><dt>speed</dt><dd>{frame.speed[0].toFixed(2)} m/s</dd></div>}
+          {session?.kind !== "log" && <div><dt>to go</dt><dd>{believed.distance == null ? "?" : `${believed.distance.toFixed(0)} m`}</dd></div>}
           <div className="wide"><dt>places</dt><dd>{believed.places.slice(0, 3).map((one) => `${one.place || one.cell} ${percent(one.probability)}`).join(", ") || "none"}</dd></div>
         </dl>
       )}
@@ -55,24 +58,17 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
         <button onClick={restart}>Restart</button>
         <button onClick={leave}>Back to the drawing</button>
       </div>
-      {!done && (
+      {isDrive && (
         <div className="row" role="group" aria-label="Play fate">
           <span className="quiet">Play fate:</span>
-          {FATES.filter((one) => one.fate === "goal" || drive.world).map((one) => (
+          {FATES.filter((one) => one.fate === "goal" || !done).map((one) => (
             <button key={one.fate} aria-pressed={fate === one.fate} onClick={() => setFate(fate === one.fate ? "none" : one.fate)}>{one.text}</button>
           ))}
           <span className="quiet">{hint}</span>
         </div>
       )}
       <Timeline drive={drive} send={send} />
-      {session && (
-        <div className="row quiet">
-          Take with you:
-          <a href={`/api/sessions/${session.session}/film`} download="drive.gif">film</a>
-          <a href={`/api/sessions/${session.session}/picture`} download="drive.png">picture</a>
-          <a href={`/api/sessions/${session.session}/journal`} download="journal.jsonl">journal</a>
-        </div>
-      )}
+      <TakeAlong drive={drive} send={send} />
     </section>
   );
 }
@@ -94,7 +90,7 @@ function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void 
         aria-label="Timeline: look back at any moment" aria-valuetext={clock(now)} data-testid="timeline"
         onChange={(event) => send({ type: "scrub", t: Number(event.target.value) })}
       />
-      <button disabled={drive.frame?.live !== false} onClick={() => send({ type: "scrub", t: null })}>Now</button>
+      <button disabled={drive.frame?.live !== false} hidden={drive.session?.kind === "journal"} onClick={() => send({ type: "scrub", t: null })}>Now</button>
       <ol className="log" aria-label="What happened" data-testid="marks">
         {drive.marks.slice(-4).map((mark, k) => (
           <li key={k}><span>{clock(mark.t)}</span> {mark.text || mark.kind}</li>
@@ -103,5 +99,3 @@ function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void 
     </div>
   );
 }
-
-const clock = (t: number) => `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`;

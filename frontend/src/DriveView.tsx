@@ -1,9 +1,10 @@
 // A drive, side by side: what the robot believes on the drawing, and the world as it is.
 import { useRef, useState } from "react";
+import { percent } from "./numbers";
 import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
 import { PlanCanvas } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
-import type { Point, Pose } from "./types";
+import type { Point, Pose, Segment, WayPoint } from "./types";
 
 export type Fate = "none" | "goal" | "door" | "box" | "person";
 
@@ -17,6 +18,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   const { session, frame, world } = drive;
   const believed = frame?.believed;
   const truth = frame?.world;
+  const canCarry = session?.kind === "drive" && !drive.done;
 
   const paintBelieved = (brush: Brush) => {
     for (const stroke of session?.drawing.strokes ?? []) line(brush, stroke.points, COLOR.ink, 2.2, stroke.closed);
@@ -86,11 +88,11 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
           <figcaption>What is true</figcaption>
           <PlanCanvas
             testId="world"
-            label="The world as it is, with the robot in it. Drag the robot to carry it elsewhere."
+            label={`The world as it is, with the robot in it.${canCarry ? " Drag the robot to carry it elsewhere." : ""}`}
             bounds={world.bounds}
-            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-door": middle(world.doors[0]?.segment) }}
+            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-doors": world.doors.map((door) => middle(door.segment)).join(" ") }}
             paint={paintWorld}
-            grabs={(at, pixel) => !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
+            grabs={(at, pixel) => canCarry && !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
             onDrag={(_, to, released) => {
               setCarried(released ? null : to);
               if (released) send({ type: "kidnap", x: to[0], y: to[1] });
@@ -104,10 +106,8 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   );
 }
 
-export const percent = (share: number) => `${Math.round(100 * share)} %`;
-
-const middle = (segment?: [number, number, number, number]) => (segment ? `${(segment[0] + segment[2]) / 2},${(segment[1] + segment[3]) / 2}` : "");
-const middleDistance = ([x1, y1, x2, y2]: [number, number, number, number], x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
+const middle = ([x1, y1, x2, y2]: Segment) => `${(x1 + x2) / 2},${(y1 + y2) / 2}`;
+const middleDistance = ([x1, y1, x2, y2]: Segment, x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
 
 const ring = ([x, y]: Pose, radius: number): Point[] =>
   Array.from({ length: 24 }, (_, k) => [x + radius * Math.cos((k * Math.PI) / 12), y + radius * Math.sin((k * Math.PI) / 12)]);
@@ -132,19 +132,21 @@ function pieces(way: Point[]): Point[][] {
   return all;
 }
 
-/** The ways believed and true until the shown moment. A jump of the estimate begins a new line. */
+/** The ways believed and true until the shown moment, as far as they were seen or told. A jump of the estimate begins a new line. */
 function useTrail(drive: Drive): { believed: Point[]; true: Point[][] } {
-  const kept = useRef<{ session: string; t: number; points: { t: number; believed: Point; true: Point | null; sure: boolean }[] }>({ session: "", t: -1, points: [] });
+  const kept = useRef<{ session: string; seen: WayPoint[] }>({ session: "", seen: [] });
   const { frame, session } = drive;
   const trail = kept.current;
-  if (session && trail.session !== session.session) Object.assign(trail, { session: session.session, t: -1, points: [] });
-  if (frame && frame.live && frame.t > trail.t) {
+  if (session && trail.session !== session.session) kept.current = { session: session.session, seen: [...(session.way ?? [])] };
+  const { seen } = kept.current;
+  if (frame) {
     const { pose, status } = frame.believed;
-    trail.points.push({ t: frame.t, believed: [pose[0], pose[1]], true: frame.world ? [frame.world.pose[0], frame.world.pose[1]] : null, sure: status === "located" });
-    trail.t = frame.t;
-    if (trail.points.length > TRAIL_POINTS) trail.points = trail.points.filter((_, k) => k % 2 === 0);
+    const before = seen.findLastIndex((one) => one.t <= frame.t);
+    const one: WayPoint = { t: frame.t, believed: [pose[0], pose[1]], true: frame.world ? [frame.world.pose[0], frame.world.pose[1]] : null, sure: status === "located" };
+    if (seen[before]?.t !== frame.t) seen.splice(before + 1, 0, one);
+    if (seen.length > TRAIL_POINTS) kept.current.seen = seen.filter((_, k) => k % 2 === 0);
   }
-  const until = trail.points.filter((one) => one.t <= (frame?.t ?? 0));
+  const until = seen.filter((one) => one.t <= (frame?.t ?? 0));
   const lost = until.findLastIndex((one, k) => !one.sure || (k > 0 && jump(until[k - 1]!.believed, one.believed, drive)));
   return { believed: until.slice(lost + 1).map((one) => one.believed), true: pieces(until.flatMap((one) => (one.true ? [one.true] : []))) };
 }

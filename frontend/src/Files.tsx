@@ -48,7 +48,7 @@ export function Welcome({ opening, close }: { opening: Opening; close: () => voi
           {drawings.slice(0, 4).map((one) => <button key={one.name} className="link" onClick={() => { opening.openDrawing(one.name); close(); }}>{one.name}</button>)}
         </p>
       )}
-      <p className="quiet">You can drop an SVG, DXF, PDF, photo or scan anywhere on the page.</p>
+      <p className="quiet">You can drop an SVG, DXF, PDF, photo or scan anywhere on the page; then a laser log or a journal, to watch it on the drawing.</p>
     </section>
   );
 }
@@ -89,7 +89,7 @@ export function FileMenu({ opening, download }: MenuProps) {
       {shown && (
         <div className="card drop">
           <button onClick={then(opening.openEmpty)}>New, empty sheet</button>
-          <button onClick={then(() => input.current?.click())}>Open a file of mine (SVG, DXF, PDF, photo) ...</button>
+          <button onClick={then(() => input.current?.click())}>Open a file of mine (drawing, plan, photo, log, journal) ...</button>
           <button onClick={then(() => download("svg"))}>Download as SVG</button>
           <button onClick={then(() => download("excalidraw"))}>Download as .excalidraw</button>
           {examples.length > 0 && <h3>Examples</h3>}

@@ -116,17 +116,3 @@ function colorsOf(told: Understanding): Record<string, string> {
   });
   return colors;
 }
-
-/** The cell at a point, by the even-odd rule. */
-export function cellAt(told: Understanding | null, p: Point) {
-  return told?.cells.find((cell) => [cell.outline, ...cell.holes].reduce((inside, one) => inside !== isInside(one, p), false));
-}
-
-function isInside(polygon: Point[], [x, y]: Point): boolean {
-  let inside = false;
-  polygon.forEach(([x1, y1], k) => {
-    const [x2, y2] = polygon[(k + 1) % polygon.length]!;
-    if (y1 > y !== y2 > y && x < ((x2 - x1) * (y - y1)) / (y2 - y1) + x1) inside = !inside;
-  });
-  return inside;
-}

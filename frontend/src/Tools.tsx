@@ -1,5 +1,5 @@
 // The table's own tools beside the editor's: what they are called, and the layer that takes the pointer while one is chosen.
-import { useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { toScene, type View } from "./Overlay";
 import type { Point } from "./types";
 
@@ -46,6 +46,13 @@ export function ToolLayer({ tool, view, preview, use, hover, leave }: Props) {
   const from = useRef<Point | null>(null);
   const [cross, setCross] = useState<Point | null>(null);
   const needsTwo = tool === "start" || tool === "measure";
+
+  // Keys go to the layer as long as it is there, and then back to where they went before.
+  useEffect(() => {
+    const before = document.activeElement as HTMLElement | null;
+    layer.current?.focus();
+    return () => before?.focus();
+  }, []);
 
   const at = (event: { clientX: number; clientY: number }): Point => {
     const box = layer.current!.getBoundingClientRect();

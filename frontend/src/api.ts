@@ -1,5 +1,5 @@
 // Requests to the server. Every refusal is an ApiError with one sentence that a person can read.
-import type { Understanding, Upload, WorldChoice } from "./types";
+import type { RecordingChoice, Understanding, Upload, WorldChoice } from "./types";
 
 export const SVG = "image/svg+xml";
 
@@ -46,6 +46,15 @@ export async function listWorlds(): Promise<WorldChoice[]> {
   return (await (await ask("/api/worlds")).json()).worlds;
 }
 
+export async function listRecordings(): Promise<RecordingChoice[]> {
+  return (await (await ask("/api/recordings")).json()).recordings;
+}
+
+export async function sendRecording(file: File): Promise<RecordingChoice> {
+  const answer = await ask(`/api/recordings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+  return answer.json();
+}
+
 export async function loadDrawing(name: string): Promise<{ text: string; tag: string }> {
   const answer = await ask(`/api/drawings/${path(name)}`);
   return { text: await answer.text(), tag: tagOf(answer) };
@@ -53,6 +62,11 @@ export async function loadDrawing(name: string): Promise<{ text: string; tag: st
 
 export async function loadExample(name: string): Promise<string> {
   return (await ask(`/api/examples/${path(name)}`)).text();
+}
+
+/** What the server writes of a drive. */
+export async function loadExport(session: string, what: string): Promise<Blob> {
+  return (await ask(`/api/sessions/${session}/${what}`)).blob();
 }
 
 /** Saves a drawing; `tag` is the version it replaces, null if it must be new. Returns the new tag. */

@@ -31,7 +31,7 @@ export function doorWidth(elements: readonly Element[], others: readonly Gap[], 
 }
 
 /** The piece of wall nearest to a point: the foot on it and its direction; null if none is near. */
-export function wallAt(elements: readonly Element[], p: Point, zoom: number): { foot: Point; along: Point } | null {
+function wallAt(elements: readonly Element[], p: Point, zoom: number): { foot: Point; along: Point } | null {
   let best: { foot: Point; along: Point } | null = null;
   let least = REACH / zoom;
   for (const element of elements.filter(isWall)) {
@@ -153,7 +153,7 @@ function spanInside(a: Point, b: Point, half: number, thickness: number): [numbe
 }
 
 /** The door at a point: ends of strokes that face each other, one pair for each line of the wall, the nearest first. */
-export function gapsAt(elements: readonly Element[], p: Point, width: number, zoom: number): Gap[] {
+function gapsAt(elements: readonly Element[], p: Point, width: number, zoom: number): Gap[] {
   const ends = elements.filter(isWall).flatMap((element) => {
     const { points, closed } = outlineOf(element);
     return closed || points.length < 2 ? [] : [
@@ -193,12 +193,20 @@ const unit = (d: Point): Point => {
 };
 
 /** Where a door goes that is dragged: an end widens it, its middle moves it. */
-export function draggedDoor([a, b]: Gap, from: Point, to: Point): Gap {
+function draggedDoor([a, b]: Gap, from: Point, to: Point): Gap {
   const t = project(from, a, b);
   const shift = project(to, a, b) - t;
   if (t < 0.25) return [between(a, b, Math.min(shift, 0.9)), b];
   if (t > 0.75) return [a, between(a, b, 1 + Math.max(shift, -0.9))];
   return [between(a, b, shift), between(a, b, 1 + shift)];
+}
+
+/** Where the door tool puts a door that is clicked or dragged, and the door that it moves there; null if no wall is near. */
+export function doorFor(elements: readonly Element[], width: number, zoom: number, from: Point, to: Point, isClick: boolean): { door: Gap; moved: Gap[] } | null {
+  const moved = isClick ? [] : gapsAt(elements, from, width, zoom);
+  if (moved[0]) return { door: draggedDoor(moved[0], from, to), moved };
+  const wall = wallAt(elements, from, zoom);
+  return wall && { door: isClick ? doorAbout(wall.foot, wall.along, width) : doorBetween(wall.foot, wall.along, to), moved: [] };
 }
 
 /** The drawing with this gap closed by a stroke. */
@@ -207,7 +215,7 @@ export function closeGap(elements: readonly Element[], gap: Gap): Element[] {
 }
 
 /** A door of this width about a point of a wall. */
-export function doorAbout(foot: Point, along: Point, width: number): Gap {
+function doorAbout(foot: Point, along: Point, width: number): Gap {
   const half = width / 2;
   return [
     [foot[0] - half * along[0], foot[1] - half * along[1]],
@@ -216,6 +224,6 @@ export function doorAbout(foot: Point, along: Point, width: number): Gap {
 }
 
 /** A door from a press to a release along a wall. */
-export function doorBetween(foot: Point, along: Point, to: Point): Gap {
+function doorBetween(foot: Point, along: Point, to: Point): Gap {
   return [foot, between(foot, [foot[0] + along[0], foot[1] + along[1]], dot(minus(to, foot), along))];
 }

@@ -108,10 +108,20 @@ export interface Mark {
   text: string;
 }
 
+/** A point of the way that a robot drove. */
+export interface WayPoint {
+  t: number;
+  believed: Point;
+  true: Point | null;
+  sure: boolean;
+}
+
 export interface Session {
   session: string;
+  kind: "drive" | "log" | "journal";
   title: string;
   drawing: { bounds: [number, number, number, number]; strokes: Stroke[]; labels: Upload["labels"]; goal: Point | null };
+  way?: WayPoint[]; // of a journal
   speed: number;
   paused: boolean;
   over: boolean;
@@ -121,4 +131,10 @@ export interface WorldChoice {
   id: string;
   title: string;
   drawings: string[];
+}
+
+export interface RecordingChoice {
+  id: string;
+  title: string;
+  kind: "log" | "journal";
 }

@@ -1,6 +1,6 @@
 // Saves the drawing a moment after each change, each time as the successor of the version last seen.
 import { useCallback, useEffect, useRef, useState } from "react";
-import { ApiError, saveDrawing } from "./api";
+import { ApiError, listDrawings, saveDrawing } from "./api";
 
 const PAUSE_MS = 700; // without a change, before it is saved
 const LONGEST_MS = 1500; // that a change waits while one draws on
@@ -23,7 +23,7 @@ export interface Autosave {
   adopt: (document: Document, saved: string | null) => void;
 }
 
-export function useAutosave(content: () => string, revision: number, freeName: (base: string) => Promise<string>): Autosave {
+export function useAutosave(content: () => string, revision: number): Autosave {
   const [document, setDocument] = useState<Document>({ name: "", base: "drawing", tag: null });
   const [state, setState] = useState<SaveState>("saved");
   const [error, setError] = useState("");
@@ -55,7 +55,7 @@ export function useAutosave(content: () => string, revision: number, freeName: (
       }
     });
     return turn.current;
-  }, [content, freeName]);
+  }, [content]);
 
   const adopt = useCallback((document: Document, saved: string | null) => {
     now.current = { document, saved: saved ?? "", changedAt: 0 };
@@ -86,4 +86,13 @@ export function useAutosave(content: () => string, revision: number, freeName: (
   }, [content]);
 
   return { document, state, error, saveNow, adopt };
+}
+
+async function freeName(base: string): Promise<string> {
+  const taken = new Set((await listDrawings()).map((one) => one.name.toLowerCase()));
+  for (let k = 1; k < 1000; k++) {
+    const name = `${base}${k > 1 ? `-${k}` : ""}.svg`;
+    if (!taken.has(name.toLowerCase())) return name;
+  }
+  throw new ApiError(`there are too many drawings called ${base}`, 0);
 }

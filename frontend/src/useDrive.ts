@@ -115,6 +115,7 @@ function heard(drive: Drive, message: Record<string, unknown> & { type: string }
         ...drive,
         paused: message.paused as boolean,
         speed: message.speed as number,
+        done: message.over ? drive.done : null,
         recorded: (message.recorded as [number, number] | null) ?? drive.recorded,
       };
     case "done":

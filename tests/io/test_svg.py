@@ -56,6 +56,25 @@ def test_every_shape_gives_its_outline(tmp_path, body, vertices, closed):
     assert closed == sketch.strokes[0].closed
 
 
+@pytest.mark.parametrize(
+    ("written", "metres"),
+    [
+        ("0.02", 0.02),
+        ("1e-3", 0.001),
+        ("0", None),
+        ("-1", None),
+        ("nan", None),
+        ("inf", None),
+        ("a lot", None),
+    ],
+)
+def test_a_file_may_claim_its_scale_and_nonsense_claims_nothing(tmp_path, written, metres):
+    sketch = drawing(tmp_path, LINE, f'viewBox="0 0 100 100" data-metres-per-unit="{written}"')
+
+    assert metres == sketch.metres_per_unit
+    assert drawing(tmp_path, LINE).metres_per_unit is None
+
+
 def test_y_points_up_inside_and_down_in_the_file(tmp_path):
     sketch = drawing(tmp_path, LINE)
 

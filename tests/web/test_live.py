@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
 from starlette.testclient import TestClient
@@ -11,6 +12,7 @@ from starlette.testclient import TestClient
 from pilotage.web.table import Table
 from web_table import CLOSED, CONTENT, FLAT, LIVE, Talk
 
+SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
 
 
@@ -45,6 +47,7 @@ def check_record(client: TestClient, number: str) -> None:
     journal = client.get(f"/api/sessions/{number}/journal").text.splitlines()
     assert "reached" == json.loads(journal[-1])["outcome"]
     assert client.get(f"/api/sessions/{number}/picture").content.startswith(b"\x89PNG")
+    check_corrected(client.get(f"/api/sessions/{number}/corrected").text)
     with talking(client) as talk:
         talk.say("resume", session=number)
         assert talk.hear("session")["resumed"]
@@ -61,6 +64,25 @@ def check_record(client: TestClient, number: str) -> None:
         assert now["t"] < talk.hear("frame")["t"]
     assert 204 == client.delete(f"/api/sessions/{number}").status_code
     assert 404 == client.get(f"/api/sessions/{number}/journal").status_code
+
+
+def check_corrected(svg: str) -> None:
+    """The flat, drawn 200 x 120, is corrected to metres: a building of people's size, of the same shape."""
+    root = ET.fromstring(svg)  # noqa: S314  # our own
+    _, _, width, height = (float(part) for part in (root.get("viewBox") or "").split())
+    assert 5.0 < width < 60.0
+    assert 1.2 < width / height < 2.3  # as it lies on the page
+    assert {"kitchen", "office", "hall", "store"} <= {one.text for one in root.iter(f"{SVG}text")}
+
+
+def test_a_drawing_is_not_corrected_by_a_robot_that_does_not_know(client: TestClient) -> None:
+    with talking(client) as talk:
+        session = talk.start(paused=True)
+        talk.hear("frame")
+        refused = client.get(f"/api/sessions/{session['session']}/corrected")
+
+    assert 504 == refused.status_code
+    assert "must be sure" in refused.json()["error"]
 
 
 def test_a_person_may_play_fate(client: TestClient) -> None:
@@ -90,7 +112,7 @@ def test_what_cannot_be_done_is_said_and_the_drive_goes_on(client: TestClient) -
         talk.start(paused=True)
         corner = talk.hear("world")["walls"][0]
         for kind, fields, words in (
-            ("speed", {"speed": 500}, "from 1 to 20"),
+            ("speed", {"speed": 500}, "from 0.1 to 100"),
             ("goal", {"goal": "attic"}, "attic"),
             ("door", {"x": 1e6, "y": 0}, "no door within"),
             ("person", {"x": "here"}, "x must be a number"),
@@ -183,16 +205,110 @@ def test_a_drawing_of_the_folder_drives_in_a_world_of_the_folder(client: TestCli
 
 def test_a_log_is_localized_live_and_can_only_be_watched(client: TestClient) -> None:
     with talking(client) as talk:
-        talk.say("start", drawing="example:office/quick", log="packed:office", speed=20)
+        talk.say("start", drawing="example:office/quick", recording="packed:office", speed=20)
         session = talk.hear("session")
         frame = talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
         talk.say("box", x=0, y=0)
         assert "only be watched" in talk.hear("error")["text"]
         talk.say("goal", goal="Ana")
-        assert "cannot be driven" in talk.hear("error")["text"]
+        assert "only be watched" in talk.hear("error")["text"]
 
+    assert "log" == session["kind"]
     assert frame["world"] is None
     assert 750 == len(frame["believed"]["particles"])
     assert frame["text"].startswith(("lost", "in "))
     refused = client.get(f"/api/sessions/{session['session']}/journal")
-    assert (504, "a log can only be watched") == (refused.status_code, refused.json()["error"])
+    assert (504, "a recording can only be watched") == (refused.status_code, refused.json()["error"])
+
+
+def journal_of_a_drive(client: TestClient) -> str:
+    """Drive for some seconds, and return the journal."""
+    with talking(client) as talk:
+        session = talk.start(speed=100)
+        talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
+    return client.get(f"/api/sessions/{session['session']}/journal").text
+
+
+def test_any_moment_of_a_journal_is_shown_as_it_was(client: TestClient) -> None:
+    text = journal_of_a_drive(client)
+    lines = [json.loads(line) for line in text.splitlines()]
+    kept = client.post("/api/recordings?name=journal.jsonl", content=text).json()
+    assert "journal" == kept["kind"]
+    with talking(client) as talk:
+        talk.say("start", content=CONTENT, recording=kept["id"], paused=True)
+        session, state = talk.hear("session"), talk.hear("state")
+        assert "journal" == session["kind"]
+        assert [0.0, lines[-1]["stamp"]] == state["recorded"]
+        assert [line["x"] for line in lines] == pytest.approx(
+            [one["believed"][0] for one in session["way"]], abs=0.1
+        )
+        assert 0.0 == talk.hear("frame")["t"]
+        for line in (lines[40], lines[3], lines[-1]):
+            talk.say("scrub", t=line["stamp"])
+            frame = talk.hear("frame")
+            assert line["stamp"] == pytest.approx(frame["t"], abs=0.01)
+            assert [line["x"], line["y"]] == pytest.approx(frame["believed"]["pose"][:2], abs=0.1)
+            assert line["place"] == frame["believed"]["place"]
+            true = [line["truth"]["x"], -line["truth"]["y"]]
+            assert true == pytest.approx(frame["world"]["pose"][:2], abs=0.01)
+        assert "over" == talk.hear("done")["outcome"]
+        talk.say("scrub", t=1.0)
+        talk.say("pause", paused=False)
+        talk.hear_until("frame", lambda frame: frame["t"] > 1.5)
+        talk.say("kidnap", x=0, y=0)
+        assert "only be watched" in talk.hear("error")["text"]
+
+
+def test_a_journal_of_a_named_world_shows_its_walls(client: TestClient, folder: Path) -> None:
+    (folder / "run").mkdir()
+    (folder / "run" / "journal.jsonl").write_text(journal_of_a_drive(client))
+    (folder / "true.svg").write_text(FLAT)
+    listed = client.get("/api/recordings").json()["recordings"]
+    assert ["packed:office", "file:run/journal.jsonl"] == [one["id"] for one in listed]
+    with talking(client) as talk:
+        talk.say("start", content=CONTENT, recording="file:run/journal.jsonl", world="file:true.svg")
+        assert talk.hear("world")["walls"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("a.jsonl", "not json", "no laser log"),
+        ("a.jsonl", '{"stamp": 0}', "line 1 must be an estimate"),
+        ("a.log", "nothing", "no laser log"),
+    ],
+)
+def test_a_recording_that_cannot_be_read_says_why(
+    client: TestClient, name: str, text: str, words: str
+) -> None:
+    kept = client.post(f"/api/recordings?name={name}", content=text).json()
+    with talking(client) as talk:
+        talk.say("start", content=CONTENT, recording=kept["id"])
+        error = talk.hear("error")
+
+    assert error["fatal"]
+    assert words in error["text"]
+    assert error["text"].endswith(f": {name}")
+
+
+def test_a_journal_of_another_drawing_is_refused(client: TestClient) -> None:
+    text = journal_of_a_drive(client)
+    kept = client.post("/api/recordings?name=journal.jsonl", content=text).json()
+    with talking(client) as talk:
+        talk.say("start", drawing="example:office/quick", recording=kept["id"])
+        error = talk.hear("error")
+
+    assert "must be of this drawing" in error["text"]
+
+
+def test_what_is_no_recording_is_not_kept(client: TestClient) -> None:
+    refused = client.post("/api/recordings?name=run.exe", content=b"x")
+
+    assert 400 == refused.status_code
+    assert "a recording must end in" in refused.json()["error"]
+    for number in range(6):
+        kept = client.post(f"/api/recordings?name={number}.log", content=b"x").json()
+    with talking(client) as talk:
+        talk.say("start", content=CONTENT, recording="sent:gone")
+        assert "there is no recording" in talk.hear("error")["text"]
+    assert "5.log" == kept["title"]

@@ -8,7 +8,10 @@ from typing import Any, TypeVar
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
 
+from pilotage.web.file_routes import while_wanted
 from pilotage.web.history import History
 from pilotage.web.sessions import Client
 from pilotage.web.workers import Jobs, WorkerError
@@ -85,3 +88,26 @@ def test_a_job_that_dies_or_hangs_takes_nothing_else_with_it() -> None:
         return await jobs.run(len, "abc", within=60.0)
 
     assert 3 == finished(work())
+
+
+def test_a_job_whose_page_has_gone_on_is_ended() -> None:
+    ended: list[str] = []
+
+    async def job() -> None:
+        try:
+            await asyncio.sleep(60.0)
+        finally:
+            ended.append("job")
+
+    async def leave() -> dict[str, str]:
+        await asyncio.sleep(0.01)
+        return {"type": "http.disconnect"}
+
+    async def ask() -> None:
+        with pytest.raises(HTTPException, match="nobody waits"):
+            await while_wanted(Request({"type": "http"}, leave), job())
+        await asyncio.sleep(0.0)
+
+    finished(ask())
+
+    assert ["job"] == ended

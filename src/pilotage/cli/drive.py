@@ -14,7 +14,7 @@ from pilotage.cli.terminal import busy, keeping, say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.drives import Drive, Instant
+    from pilotage.drives import Drive, Instant, Pilot
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.navigation import Navigator, Step
     from pilotage.simulation import Scene, Simulator, World
@@ -26,14 +26,21 @@ EVERY = 5.0
 
 
 def drive_and_record(
-    world: "World", navigator: "Navigator", simulator: "Simulator", folder: Path | None
+    world: "World",
+    navigator: "Navigator",
+    simulator: "Simulator",
+    folder: Path | None,
+    pilot: "Pilot | None" = None,
 ) -> "Drive":
-    """Drive to the end; the journal grows in the folder, if there is one."""
+    """Drive to the end; the journal grows in the folder, if there is one.
+
+    A pilot may step in for the navigator.
+    """
     from pilotage.drives import Drive, drive
 
     atlas, goal = navigator.planner.atlas, navigator.planner.goal
     with journal_in(folder, atlas.sketch) as write:
-        instants = follow(drive(navigator, simulator), navigator.planner.graph, write)
+        instants = follow(drive(pilot or navigator, simulator), navigator.planner.graph, write)
     return Drive.of(atlas, world, goal, instants)
 
 

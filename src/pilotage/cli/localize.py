@@ -1,11 +1,13 @@
 """`pilotage localize`: where the robot is on the drawing, scan by scan."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.correction import write_corrections
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
+from pilotage.cli.exits import signals_held
 from pilotage.cli.options import Force, Scale, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_pose
 from pilotage.cli.run import (
@@ -20,6 +22,9 @@ from pilotage.cli.run import (
 )
 from pilotage.cli.terminal import check_outputs, keeping, say
 
+if TYPE_CHECKING:
+    from pilotage.correction import Sighting
+
 
 def localize(
     drawing: Map,
@@ -31,6 +36,13 @@ def localize(
     ] = None,
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw the path on the drawing (.png, .svg, .pdf).")
+    ] = None,
+    corrected: Annotated[
+        Path | None,
+        typer.Option(
+            help="Where to write the drawing in metres, bent to what the robot saw "
+            "(.svg, or .yaml: a map for nav2)."
+        ),
     ] = None,
     first: Annotated[int, typer.Option("--from", min=0, help="First scan to use, counted from 0.")] = 0,
     last: Annotated[
@@ -61,8 +73,10 @@ def localize(
 
     - `pilotage localize office.svg run.log.gz -o out.jsonl --figure where.png`
     - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
+    - `pilotage localize office.svg run.log.gz -o out.jsonl --corrected metres.svg`
     """
-    check_outputs([output, figure], force=force)
+    corrections = [] if corrected is None else corrected_files(corrected)
+    check_outputs([output, figure, *corrections], force=force)
     check_positive(scale, "--scale")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
@@ -70,8 +84,20 @@ def localize(
     localizer = open_localizer(sketch, settings, seed, known, scale)
     tell_worst(drawing, findings_of(sketch, settings))
     with estimates_sink(output, sketch) as write:
-        trip = run(localizer, readings, write)
+        sightings: list[Sighting] = []
+        trip = run(localizer, readings, write, None if corrected is None else sightings)
     if figure is not None:
         with keeping(output):
             draw(sketch, localizer, trip.estimates, figure, title=f"{log.name} in {drawing.name}")
     say(trip.summary)
+    if corrected is not None:
+        with keeping(output), signals_held():
+            write_corrections(localizer.atlas, sightings, [corrected])
+
+
+def corrected_files(path: Path) -> tuple[Path, ...]:
+    """List the files that a corrected drawing needs; complain about an ending that says no format."""
+    from pilotage.io.corrected import check_ending, files_of
+
+    check_ending(path)
+    return files_of(path)

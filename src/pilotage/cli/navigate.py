@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.correction import write_corrections
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, findings_of, open_drawing, tell_worst
 from pilotage.cli.drive import draw, drive_and_record, make_folder, story
 from pilotage.cli.exits import signals_held
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
     from pilotage.geometry import Pose2
     from pilotage.maps import SchematicMap
     from pilotage.maps.routing.roadmap import Point
+
+
+CORRECTED = ("corrected.svg", "corrected.yaml")
+"""What a drive leaves of the corrected drawing."""
 
 
 def navigate(
@@ -80,6 +85,14 @@ def navigate(
         bool,
         typer.Option("--animation/--no-animation", help="Whether to draw the drive as a moving picture."),
     ] = True,
+    corrected: Annotated[
+        bool,
+        typer.Option(
+            "--corrected",
+            help="Write the drawing in metres, bent to what the robot saw, into the folder too: "
+            "corrected.svg, and corrected.yaml, a map for nav2.",
+        ),
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Write into a folder that holds something.")] = False,
 ) -> None:
     """Drive a simulated robot to a goal that is marked on a drawing of the building.
@@ -105,6 +118,8 @@ def navigate(
     check_positive(scale, "--scale")
     check_positive(time_limit, "--time-limit")
     size = parse_footprint(footprint)
+    if corrected and output is None:
+        raise typer.BadParameter("a corrected drawing needs a folder, see --output", param_hint="--corrected")
     from pilotage.io import open_world
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
@@ -113,7 +128,7 @@ def navigate(
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
     chosen = chosen_settings(settings, time_limit, size)
-    from pilotage.drives import set_out
+    from pilotage.drives import WatchingPilot, set_out
     from pilotage.maps import NotEnclosedError
     from pilotage.navigation import Tour
     from pilotage.simulation import StartError
@@ -137,11 +152,15 @@ def navigate(
     tell_worst(drawing, findings_of(sketch, settings))
     if output is not None:
         make_folder(output, force=force)
-    recorded = drive_and_record(building, navigator, simulator, output)
+    pilot = WatchingPilot(navigator)
+    recorded = drive_and_record(building, navigator, simulator, output, pilot)
     told = story(recorded)
     typer.echo(told)
     if output is not None:
         draw(recorded, output, f"{drawing.name}: {told.split('. ')[0]}", moving=animation)
+        if corrected:
+            paths = [output / name for name in CORRECTED]
+            write_corrections(navigator.planner.atlas, pilot.sightings, paths)
         say(f"See {output}.")
 
 

@@ -14,6 +14,7 @@ from pilotage.cli.trip import Trip
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
+    from pilotage.correction import Sighting
     from pilotage.localization import Estimate, Localizer
     from pilotage.maps import SchematicMap
     from pilotage.perception import Reading
@@ -87,14 +88,23 @@ def estimates_sink(output: Path | None, sketch: "SchematicMap") -> "Iterator[Cal
         yield write
 
 
-def run(localizer: "Localizer", readings: "Sequence[Reading]", write: "Callable[[Estimate], None]") -> Trip:
-    """Localize scan by scan, each estimate written as it comes."""
+def run(
+    localizer: "Localizer",
+    readings: "Sequence[Reading]",
+    write: "Callable[[Estimate], None]",
+    sightings: "list[Sighting] | None" = None,
+) -> Trip:
+    """Localize scan by scan, each estimate written as it comes; sightings are kept if there is a list."""
+    from pilotage.correction import append_sighting
+
     trip = Trip()
     for reading in track(readings, "Localizing"):
         with signals_held():
             estimate = localizer.update(reading.scan, reading.odometry)
             write(estimate)
             trip.add(estimate)
+            if sightings is not None:
+                append_sighting(sightings, localizer, reading.scan)
     return trip
 
 

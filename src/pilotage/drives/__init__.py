@@ -3,5 +3,6 @@
 from pilotage.drives.loop import Instant, Pilot, drive, set_out
 from pilotage.drives.record import Drive
 from pilotage.drives.run import navigate
+from pilotage.drives.watching import WatchingPilot
 
-__all__ = ["Drive", "Instant", "Pilot", "drive", "navigate", "set_out"]
+__all__ = ["Drive", "Instant", "Pilot", "WatchingPilot", "drive", "navigate", "set_out"]

@@ -19,6 +19,7 @@ from pilotage.web import live_routes as lives
 from pilotage.web.folder import NameRefusedError
 from pilotage.web.guard import Access, Guard
 from pilotage.web.openapi import document
+from pilotage.web.sessions import EXPORTS
 from pilotage.web.table import Table
 from pilotage.web.workers import RefusedError, WorkerError, warm_up
 
@@ -39,7 +40,7 @@ def build_app(table: Table, access: Access, static: Path = STATIC) -> Starlette:
             yield
         finally:
             tidying.cancel()
-            table.sessions.close()
+            table.close()
 
     app = Starlette(
         routes=routes(static),
@@ -71,13 +72,11 @@ def routes(static: Path) -> list[Route | WebSocketRoute | Mount]:
         Route("/api/uploads", files.upload, methods=["POST"]),
         Route("/api/understand", files.understand, methods=["POST"]),
         Route("/api/worlds", files.list_worlds),
-        Route("/api/logs", files.list_logs),
+        Route("/api/recordings", files.list_recordings),
+        Route("/api/recordings", files.send_recording, methods=["POST"]),
         Route("/api/sessions", lives.list_sessions),
         Route("/api/sessions/{number}", lives.forget_session, methods=["DELETE"]),
-        *(
-            Route(f"/api/sessions/{{number}}/{kind}", lives.export_of(kind))
-            for kind in ("journal", "film", "picture")
-        ),
+        *(Route(f"/api/sessions/{{number}}/{kind}", lives.export_of(kind)) for kind in EXPORTS),
         WebSocketRoute("/api/live", lives.live),
         Mount("/", StaticFiles(directory=static, check_dir=False)),
     ]

@@ -25,6 +25,8 @@ DIGITS = 4
 
 STROKE = 1.0 / 400.0
 """Width of the strokes of a drawing that was made of an upload, as a share of its diagonal."""
+LETTERS = 6.0
+"""Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
 
 
 class UnreadableError(PilotageError):
@@ -128,7 +130,8 @@ def svg_of(sketch: SchematicMap) -> str:
     width = sketch.diagonal * STROKE
     margin = 4.0 * width
     box = f"{left - margin:g} {top - margin:g} {right - left + 2 * margin:g} {bottom - top + 2 * margin:g}"
-    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
+    scale = "" if sketch.metres_per_unit is None else f' data-metres-per-unit="{sketch.metres_per_unit:g}"'
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}"{scale}>']
     lines.append(f'<g fill="none" stroke="#1b1b1f" stroke-width="{width:g}">')
     solid = {stroke.vertices.tobytes() for stroke in sketch.solids}
     lines += [
@@ -139,7 +142,7 @@ def svg_of(sketch: SchematicMap) -> str:
     if sketch.solids:
         rings = " ".join(path_of(page, ring) for ring in sketch.solids)
         lines.append(f'<path class="wall" fill="#1b1b1f" fill-rule="evenodd" stroke="none" d="{rings}"/>')
-    lines.append(f'</g><g font-size="{10.0 * width:g}" text-anchor="middle">')
+    lines.append(f'</g><g font-size="{LETTERS * width:g}" text-anchor="middle">')
     lines += [
         f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'
         for label in labels_of(sketch)

@@ -38,6 +38,7 @@ def kidnap(stage: Stage, message: Message) -> str:
     if not stage.simulator.world.is_free([(x, y)], stage.simulator.settings.body.radius)[0]:
         raise OrderError("the robot cannot stand there, a wall or a thing is in the way")
     stage.simulator.carry(Pose2(x, y, heading))
+    stage.sightings.clear()  # the way between them is broken
     return "the robot was carried elsewhere"
 
 

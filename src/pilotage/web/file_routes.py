@@ -1,18 +1,22 @@
 """Routes for files: drawings in the folder, examples, uploads and worlds, and what is understood of them."""
 
-from collections.abc import AsyncIterator
+import asyncio
+from collections.abc import AsyncIterator, Coroutine
 from importlib.metadata import version
 from pathlib import PurePosixPath
+from typing import Any, TypeVar
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from pilotage.web import work
-from pilotage.web.folder import LOGS, WORLDS, ChangedError
+from pilotage.web.folder import RECORDINGS, WORLDS, ChangedError
 from pilotage.web.order import OrderError, Place, Sent, numbers
 from pilotage.web.table import table_of
 from pilotage.worlds import ALL, PackedWorld
+
+Result = TypeVar("Result")
 
 LARGEST_DRAWING = 16 << 20
 """Bytes of a drawing; one with an embedded photo is large."""
@@ -22,6 +26,8 @@ UNDERSTAND_WITHIN = 20.0
 """Time [s] to understand a drawing,"""
 READ_WITHIN = 60.0
 """and to read an upload: tracing a photo takes a while."""
+NOBODY_WAITS = 499
+"""Status of an answer that nobody gets."""
 
 MEDIA = {".svg": "image/svg+xml", ".excalidraw": "application/vnd.excalidraw+json"}
 """Media types of drawings."""
@@ -35,10 +41,6 @@ EXAMPLES = {f"{packed.name}/{hand}": (packed, hand) for packed in ALL for hand i
 """Drawings of the packed worlds, by name."""
 
 
-PACKED_LOG = "packed:office"
-"""The packed log, of a drive through the packed office."""
-
-
 def describe_server(request: Request) -> Response:
     """Say what this server is."""
     limits = {"drawing": LARGEST_DRAWING, "upload": LARGEST_UPLOAD}
@@ -48,6 +50,7 @@ def describe_server(request: Request) -> Response:
             "version": version("pilotage"),
             "folder": table_of(request).folder.root.resolve().name,
             "uploads": list(UPLOADS),
+            "recordings": list(RECORDINGS),
             "limits": limits,
         }
     )
@@ -126,12 +129,16 @@ def list_worlds(request: Request) -> Response:
     return JSONResponse({"worlds": packed + files})
 
 
-def list_logs(request: Request) -> Response:
-    """List logs that can be replayed on a drawing."""
-    packed = {"id": PACKED_LOG, "title": "office", "drawings": ["office/careful", "office/quick"]}
-    names = table_of(request).folder.names(LOGS)
-    files = [{"id": f"file:{name}", "title": name, "drawings": []} for name in names]
-    return JSONResponse({"logs": [packed, *files]})
+def list_recordings(request: Request) -> Response:
+    """List logs and journals that can be watched on a drawing."""
+    return JSONResponse({"recordings": table_of(request).recordings.list()})
+
+
+async def send_recording(request: Request) -> Response:
+    """Keep a log or a journal that was dropped on the page, to be watched as long as the server runs."""
+    content = await body_of(request, LARGEST_UPLOAD)
+    keep = table_of(request).recordings.keep
+    return JSONResponse(await asyncio.to_thread(keep, request.query_params.get("name", ""), content), 201)
 
 
 async def understand(request: Request) -> Response:
@@ -143,10 +150,24 @@ async def understand(request: Request) -> Response:
     sent = Sent(suffix, await body_of(request, LARGEST_DRAWING))
     told = [place_in_query(request, name) for name in ("from", "to")]
     ends = None if told[0] is None or told[1] is None else (told[0], told[1])
-    found = await table_of(request).jobs.run(
+    job = table_of(request).jobs.run(
         work.understand, sent, ends, within=UNDERSTAND_WITHIN, name="understanding this drawing"
     )
-    return JSONResponse(found)
+    return JSONResponse(await while_wanted(request, job))
+
+
+async def while_wanted(request: Request, job: Coroutine[Any, Any, Result]) -> Result:
+    """Return what a job returns; a job whose page has gone on is ended, and the next need not wait."""
+    working = asyncio.ensure_future(job)
+    leaving = asyncio.ensure_future(request.receive())  # the body was read: what comes is the end
+    try:
+        await asyncio.wait({working, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise HTTPException(NOBODY_WAITS, "nobody waits for this answer any more")
+    finally:
+        leaving.cancel()
+        working.cancel()
 
 
 def place_in_query(request: Request, name: str) -> Place | None:

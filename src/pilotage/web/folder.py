@@ -10,8 +10,9 @@ DRAWINGS = (".svg", ".excalidraw")
 """Kinds of files that can be drawn on."""
 WORLDS = (".yaml", ".yml", ".svg")
 """Kinds of files that may hold a world to drive in."""
-LOGS = (".log", ".gz", ".clf", ".bag", ".mcap")
-"""Kinds of files that may hold a laser log."""
+JOURNAL = ".jsonl"
+RECORDINGS = (".log", ".gz", ".clf", ".bag", ".mcap", JOURNAL)
+"""Kinds of files that may hold a laser log, or the journal of a drive."""
 DEEPEST = 4
 """Folders are looked through this far down."""
 MOST = 500

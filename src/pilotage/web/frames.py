@@ -2,19 +2,20 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from pilotage.drives import Instant
 from pilotage.geometry import Array, Pose2
 from pilotage.io.journal import finite
-from pilotage.localization import Localizer
+from pilotage.localization import Estimate, Localizer
 from pilotage.localization.particles import HEADING, displacements
-from pilotage.navigation import Navigator
+from pilotage.maps import CellGraph
+from pilotage.navigation import Navigator, Step
+from pilotage.perception import LaserScan
 from pilotage.simulation import Scene, World
 from pilotage.web.drawings import Json, Page, Rows, rounded_rows
-from pilotage.web.words import sentence
+from pilotage.web.words import place_of, sentence
 
 PARTICLES = 250
 """Particles that are shown."""
@@ -48,37 +49,16 @@ class Cloud:
         return np.vstack([moved, states[HEADING] + motion.theta])
 
 
-@dataclass(slots=True)
-class FrameMaker:
-    """Makes frames of the steps of a drive."""
-
-    navigator: Navigator
-    page: Page
-    cloud: Cloud
-    truth: Truth | None  # None if it is not known where the world is on the drawing
-    shows_world: bool  # whether anything true is known
-
-    def frame(self, instant: Instant, t: float, goal: str) -> Json:
-        """Describe a step; `goal` names where the robot is going."""
-        step = instant.step
-        return {
-            "v": 1,
-            "type": "frame",
-            "live": True,
-            "t": round(t, 2),
-            "text": sentence(step, self.navigator.planner.graph, goal),
-            "believed": self.believed(instant),
-            "speed": [round(step.command.linear, 3), round(step.command.angular, 3)],
-            "world": self.world(instant.scene) if self.shows_world else None,
-        }
-
-    def believed(self, instant: Instant) -> Json:
-        """Describe what the robot believes now."""
-        step, navigator, page = instant.step, self.navigator, self.page
-        planner, now = navigator.planner, navigator.position.estimate
-        leg = navigator.plan.leg
-        gateway = planner.graph.gateway(step.gateway_id).segment if step.gateway_id else None
-        return {
+def told_frame(step: Step, now: Estimate, t: float, *, page: Page, graph: CellGraph, goal: str) -> Json:
+    """Describe what a step tells; `now` is its estimate moved along, `goal` where the robot is going."""
+    gateway = next((one for one in graph.gateways if one.gateway_id == step.gateway_id), None)
+    return {
+        "v": 1,
+        "type": "frame",
+        "live": True,
+        "t": round(t, 2),
+        "text": sentence(step, graph, goal),
+        "believed": {
             "status": now.status.value,
             "place": step.estimate.place,
             "cell": step.estimate.cell_id,
@@ -89,23 +69,56 @@ class FrameMaker:
             "scale": finite(now.scale),
             "places": [
                 {
-                    "place": planner.atlas.place_name(one.cell_id),
+                    "place": place_of(one.cell_id, graph),
                     "cell": one.cell_id,
                     "pose": page.pose(*values(one.sketch_from_base.pose)),
                     "probability": round(one.probability, 3),
                 }
                 for one in now.hypotheses
             ],
-            "particles": self.particles(),
-            "scan": flat(page.points(now.sketch_from_base @ seen(instant.scene))),
+            "particles": [],
+            "scan": [],
             "behavior": step.behavior.value,
-            "route": [] if leg is None or step.outcome else page.points(leg.route.way),
+            "route": [],
             "next_cell": step.next_cell_id,
-            "gateway": None if gateway is None else page.points(gateway),
+            "gateway": None if gateway is None else page.points(gateway.segment),
             "closed_gateways": list(step.closed_gateway_ids),
             "distance": round(step.distance, 1) if math.isfinite(step.distance) else None,
             "times_lost": step.times_lost,
+        },
+        "speed": [round(step.command.linear, 3), round(step.command.angular, 3)],
+        "world": None,
+    }
+
+
+@dataclass(slots=True)
+class FrameMaker:
+    """Makes frames of the steps of a navigator that is at work here."""
+
+    navigator: Navigator
+    page: Page
+    truth: Truth | None = None  # None if it is not known where the world is on the drawing
+    cloud: Cloud = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Begin with the particles that are there."""
+        self.cloud = Cloud(self.navigator.position.localizer)
+
+    def note(self) -> None:
+        """Note after each step where the robot is by odometry."""
+        self.cloud.note(self.navigator.position.odom_from_base)
+
+    def frame(self, step: Step, scan: LaserScan, t: float, goal: str) -> Json:
+        """Describe a step and the particles, the scan and the route behind it."""
+        navigator, page = self.navigator, self.page
+        now, leg = navigator.position.estimate, navigator.plan.leg
+        told = told_frame(step, now, t, page=page, graph=navigator.planner.graph, goal=goal)
+        believed = {
+            "particles": self.particles(),
+            "scan": flat(page.points(now.sketch_from_base @ seen(scan))),
+            "route": [] if leg is None or step.outcome else page.points(leg.route.way),
         }
+        return {**told, "believed": {**told["believed"], **believed}}  # type: ignore[dict-item]
 
     def particles(self) -> list[float]:
         """List x, y and heading of particles, one after the other."""
@@ -120,13 +133,29 @@ class FrameMaker:
         pose = scene.world_from_base
         truly = self.truth(pose) if self.truth is not None else None
         return {
-            "pose": [*world_points(np.array([pose.position]))[0], round(pose.theta, 3)],
-            "scan": flat(world_points(pose @ seen(scene))),
+            **true_pose(pose, scene.collisions),
+            "scan": flat(world_points(pose @ seen(scene.scan))),
             "people": world_points(scene.people),
             "doors": world_segments(scene.closed_doors),
             "on_drawing": None if truly is None else self.page.pose(*truly),
-            "collisions": scene.collisions,
         }
+
+
+def true_pose(pose: Pose2, collisions: int) -> Json:
+    """Describe where the robot truly is, in a world of which nothing else is known."""
+    return {
+        "pose": [*true_place(pose), round(pose.theta, 3)],
+        "scan": [],
+        "people": [],
+        "doors": [],
+        "on_drawing": None,
+        "collisions": collisions,
+    }
+
+
+def true_place(pose: Pose2) -> list[float]:
+    """List a point of the world, y down."""
+    return world_points(np.array([pose.position]))[0]
 
 
 def describe_world(world: World, boxes: Array, goal: Array | None, stamp: float) -> Json:
@@ -150,10 +179,9 @@ def describe_world(world: World, boxes: Array, goal: Array | None, stamp: float)
     }
 
 
-def seen(scene: Scene) -> Array:
+def seen(scan: LaserScan) -> Array:
     """Return where beams came back, in the robot's frame, thinned, (n, 2) [m]."""
-    points = scene.scan.points_in_base
-    return points[:: max(1, len(scene.scan) // BEAMS)]
+    return scan.points_in_base[:: max(1, len(scan) // BEAMS)]
 
 
 def world_points(points: Array) -> Rows:

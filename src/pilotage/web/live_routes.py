@@ -14,13 +14,13 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pilotage.web import order as orders
-from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, PACKED_LOG, example_drawing
-from pilotage.web.folder import LOGS, WORLDS
-from pilotage.web.order import LogOrder, MadeRealOrder, Order, OrderError, Sent
+from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, example_drawing
+from pilotage.web.folder import WORLDS
+from pilotage.web.order import MadeRealOrder, Order, OrderError, RecordingOrder, Sent
 from pilotage.web.sessions import Client, Session
 from pilotage.web.table import Table, table_of
 from pilotage.web.workers import WorkerError
-from pilotage.worlds import ALL, LOG
+from pilotage.worlds import ALL
 
 Message = dict[str, Any]
 
@@ -111,9 +111,14 @@ async def obey(message: Message, session: Session, client: Client) -> None:
     elif kind == "scrub":
         try:
             t = message.get("t")
-            session.scrub(client, None if t is None else orders.number(message, "t", 0.0, orders.FARTHEST))
+            moment = None if t is None else orders.number(message, "t", 0.0, orders.FARTHEST)
         except OrderError as error:
             client.put("error", error_text(error))
+            return
+        if not session.seeks:
+            session.scrub(client, moment)
+        elif moment is not None:
+            await asyncio.to_thread(session.tell, {"type": "seek", "t": moment})
 
 
 def error_text(error: Exception) -> str:
@@ -164,15 +169,21 @@ def read_drawing(message: Message, table: Table) -> tuple[Sent, str, str | None]
         raise OrderError(f"there is no drawing {name!r}") from error
 
 
-def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | LogOrder, Any]:
-    """Find the world of a drive, and which packed one it is, if it is one; or a log instead."""
-    if message.get("log") is not None:
-        return read_log(orders.text(message, "log"), table), None
+def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | RecordingOrder, Any]:
+    """Find the world of a drive, and which packed one it is, if it is one; or a recording instead."""
+    if message.get("recording") is not None:
+        path, title = table.recordings.find(orders.text(message, "recording"))
+        world = None if message.get("world") is None else find_world(orders.text(message, "world"), table)[0]
+        return RecordingOrder(path, title, world), None
     made_real = message.get("made_real")
     if isinstance(made_real, dict):
         severity = orders.number(made_real, "severity", 0.0, 1.0, otherwise=0.5)
         return MadeRealOrder(severity, orders.whole(made_real, "seed")), None
-    wanted = orders.text(message, "world")
+    return find_world(orders.text(message, "world"), table)
+
+
+def find_world(wanted: str, table: Table) -> tuple[Path, Any]:
+    """Find a world, and which packed one it is, if it is one."""
     kind, _, name = wanted.partition(":")
     for packed in ALL if kind == "packed" else ():
         if packed.name == name:
@@ -180,16 +191,6 @@ def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | L
     if kind != "file" or name not in table.folder.names(WORLDS):
         raise OrderError(f"there is no world {wanted[:60]!r}")
     return table.folder.path(name, WORLDS), None
-
-
-def read_log(wanted: str, table: Table) -> LogOrder:
-    """Find a log."""
-    kind, _, name = wanted.partition(":")
-    if wanted == PACKED_LOG:
-        return LogOrder(LOG)
-    if kind != "file" or name not in table.folder.names(LOGS):
-        raise OrderError(f"there is no log {wanted[:60]!r}")
-    return LogOrder(table.folder.path(name, LOGS))
 
 
 def list_sessions(request: Request) -> Response:

@@ -84,10 +84,21 @@ PATHS: dict[str, dict[str, object]] = {
         )
     },
     "/api/worlds": {"get": operation("list worlds to drive in")},
-    "/api/logs": {"get": operation("list laser logs that can be replayed")},
+    "/api/recordings": {
+        "get": operation("list laser logs and journals that can be watched"),
+        "post": operation(
+            "keep a log or a journal, to be watched",
+            takes="application/octet-stream",
+            status="201",
+            name="query",
+        ),
+    },
     "/api/sessions": {"get": operation("list drives")},
     "/api/sessions/{number}": {"delete": operation("end and forget a drive", status="204", number="path")},
     "/api/sessions/{number}/journal": {"get": operation("its journal, JSON Lines", number="path")},
+    "/api/sessions/{number}/corrected": {
+        "get": operation("the drawing as the robot found it, SVG in metres", number="path")
+    },
     "/api/sessions/{number}/film": {"get": operation("its film, GIF", number="path")},
     "/api/sessions/{number}/picture": {"get": operation("its picture, PNG", number="path")},
 }

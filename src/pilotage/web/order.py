@@ -7,8 +7,8 @@ from pathlib import Path
 
 from pilotage.errors import shown
 
-SPEEDS = (1.0, 20.0)
-"""How many times as fast as real time a drive may go."""
+SPEEDS = (0.1, 100.0)
+"""How many times as fast as real time a drive may go; it does not go faster than it can."""
 LARGEST_SEED = 2**32 - 1
 LONGEST_NAME = 200
 FARTHEST = 1e9
@@ -40,10 +40,12 @@ class MadeRealOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class LogOrder:
-    """A log to be replayed."""
+class RecordingOrder:
+    """A log or a journal to be watched."""
 
     path: Path
+    title: str  # what a person calls it
+    world: Path | None = None  # in which the robot of a journal drove, if a person says so
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,7 @@ class Order:
 
     title: str
     drawing: Sent
-    world: Path | MadeRealOrder | LogOrder
+    world: Path | MadeRealOrder | RecordingOrder
     warp: Path | None = None  # control points of a packed drawing in a packed world: the truth, to be shown
     goal: Place | None = None  # as the drawing marks it if None
     start: tuple[float, ...] | None = None  # x, y and perhaps heading on the page, which the robot is told

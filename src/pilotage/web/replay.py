@@ -1,30 +1,27 @@
 """A log instead of a simulator: the scans of a robot that drove once, localized live on a drawing."""
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from pilotage.config import Settings
-from pilotage.drives import Instant
+from pilotage.correction import Sighting, append_sighting
 from pilotage.errors import PilotageError
-from pilotage.geometry import Pose2, Twist
+from pilotage.geometry import Twist
 from pilotage.io import open_log
 from pilotage.localization import Localizer
-from pilotage.maps import Atlas
+from pilotage.maps import Atlas, CellGraph
 from pilotage.navigation import Behavior, Navigator, Step
-from pilotage.perception import Reading
-from pilotage.simulation import Scene
-from pilotage.simulation.scene import NOBODY
+from pilotage.perception import LaserScan, Reading
 from pilotage.web.drawings import Json, Page, describe_drawing
-from pilotage.web.order import Place
+from pilotage.web.frames import FrameMaker
 
 LONGEST_PAUSE = 1.0
 """A log that pauses longer than this [s] is not waited for."""
 STILL = Twist(0.0, 0.0)
 
 
-class ReplayError(PilotageError):
-    """A replay is asked for what only a drive can do."""
+class NoRoomError(PilotageError):
+    """A drawing encloses nothing in which one can be."""
 
 
 class LogSource:
@@ -67,12 +64,18 @@ class Replay:
     navigator: Navigator
     source: LogSource
     page: Page
-    truth: None = None
+    frames: FrameMaker = field(init=False)
+    shown: tuple[Step, LaserScan] | None = None
+    sightings: list[Sighting] = field(default_factory=list)  # by which the drawing can be corrected
+
+    def __post_init__(self) -> None:
+        """Begin with what is there."""
+        self.frames = FrameMaker(self.navigator, self.page)
 
     @property
-    def localizer(self) -> Localizer:
-        """The localizer."""
-        return self.navigator.position.localizer
+    def graph(self) -> CellGraph:
+        """The cells of the drawing."""
+        return self.navigator.planner.graph
 
     @property
     def stamp(self) -> float:
@@ -85,16 +88,11 @@ class Replay:
         return self.source.time_step
 
     @property
-    def goal_name(self) -> str:
-        """A log has no goal."""
-        return ""
-
-    @property
     def is_over(self) -> bool:
         """Whether the log has ended."""
         return self.source.is_over
 
-    def step(self) -> Instant:
+    def step(self) -> Step:
         """Localize by the next scan."""
         reading = self.source.read()
         position = self.navigator.position
@@ -102,20 +100,25 @@ class Replay:
         step = Step(
             self.source.stamp, STILL, Behavior.REST, position.localized, times_lost=position.times_lost
         )
-        scene = Scene(Pose2.identity(), reading.scan, NOBODY.people[:, :2], NOBODY.closed_doors)
-        return Instant(step, scene, math.nan)
+        self.shown = step, reading.scan
+        if position.is_fresh:
+            append_sighting(self.sightings, position.localizer, reading.scan)
+        self.frames.note()
+        return step
+
+    def frame(self) -> Json:
+        """Describe the last scan."""
+        assert self.shown is not None
+        step, scan = self.shown
+        return self.frames.frame(step, scan, step.stamp, "")
 
     def describe(self, title: str) -> Json:
         """Describe the drawing."""
         drawn = {**describe_drawing(self.page.sketch), "goal": None}
-        return {"title": title, "drawing": drawn, "goal": ""}
+        return {"kind": "log", "title": title, "drawing": drawn, "goal": ""}
 
     def describe_world(self) -> None:
         """Nothing true is known."""
-
-    def set_goal(self, _goal: Place) -> None:
-        """Refuse: the robot has driven long ago."""
-        raise ReplayError("a log cannot be driven elsewhere")
 
 
 def replay(atlas: Atlas, page: Page, log: Path, start: tuple[float, ...] | None, seed: int) -> Replay:
@@ -128,7 +131,12 @@ def replay(atlas: Atlas, page: Page, log: Path, start: tuple[float, ...] | None,
 
 def any_goal(atlas: Atlas) -> tuple[float, float]:
     """Return a point in the axes of the drawing's file that a navigator may have for a goal."""
-    if atlas.cell_graph is None:
-        raise ReplayError("a drawing to localize on must enclose free space, it has no closed room")
-    x, y = Page(atlas.sketch).point(atlas.cell_graph.cells[0].center) or (0.0, 0.0)
+    x, y = Page(atlas.sketch).point(graph_of(atlas).cells[0].center) or (0.0, 0.0)
     return Page(atlas.sketch).file_point(x, y)
+
+
+def graph_of(atlas: Atlas) -> CellGraph:
+    """Return the cells of a drawing; NoRoomError if it has none."""
+    if atlas.cell_graph is None:
+        raise NoRoomError("a drawing to localize on must enclose free space, it has no closed room")
+    return atlas.cell_graph

@@ -29,6 +29,8 @@ FORGOTTEN_AFTER = 1800.0
 """A drive that stands and that nobody watches is forgotten after this time [s]."""
 EXPORT_WITHIN = 180.0
 """Time [s] to make a film."""
+EXPORTS = {"journal": ".jsonl", "film": ".gif", "picture": ".png", "corrected": ".svg"}
+"""What can be kept of a drive, and the ending of its file."""
 CRASHED = "the process of this drive ended unexpectedly; what was recorded stays, start it again to drive on"
 
 Message = Mapping[str, object]
@@ -85,6 +87,7 @@ class Session:
         self.outcome: str | None = None
         self.crashed = False
         self.stands = False
+        self.seeks = False  # any moment can be asked for, what has not been shown too
         self.watched_at = time.monotonic()
         self._said: dict[str, str] = {}
         self._exports: dict[str, asyncio.Future[str]] = {}
@@ -130,8 +133,7 @@ class Session:
         """Let the worker write a file; WorkerError if it cannot."""
         if self.crashed:
             raise WorkerError(CRASHED)
-        suffix = {"journal": ".jsonl", "film": ".gif", "picture": ".png"}[kind]
-        path = folder / f"drive-{secrets.token_hex(4)}{suffix}"
+        path = folder / f"drive-{secrets.token_hex(4)}{EXPORTS[kind]}"
         written: asyncio.Future[str] = self._loop.create_future()
         self._exports[str(path)] = written
         self.tell({"type": "export", "kind": kind, "path": str(path)})
@@ -176,9 +178,10 @@ class Session:
     def _note(self, kind: str, said: dict[str, object]) -> None:
         """Take note of what concerns the drive as a whole."""
         if kind == "session":
+            self.seeks = said["kind"] == "journal"
             said |= {"session": self.number, "resumed": False}
         elif kind == "state":
-            said["recorded"] = self.history.span or None
+            said.setdefault("recorded", self.history.span or None)
             self.stands = said["paused"] is True or said["over"] is True
             if said["over"] is False:
                 self.outcome = None

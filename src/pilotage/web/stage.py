@@ -7,25 +7,31 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pilotage.config import Settings
-from pilotage.drives import Instant, set_out
-from pilotage.errors import PilotageError
+from pilotage.correction import Sighting, append_sighting
+from pilotage.drives import Drive, Instant, set_out
+from pilotage.errors import FileError, PilotageError
 from pilotage.evaluation.warp import Warp, read_warp
 from pilotage.geometry import Array, Pose2
 from pilotage.io import open_world
-from pilotage.localization import Localizer
-from pilotage.maps import Atlas, build_atlas
-from pilotage.navigation import Navigator
+from pilotage.io.records import is_records
+from pilotage.maps import Atlas, CellGraph, build_atlas
+from pilotage.navigation import Navigator, Step
 from pilotage.navigation.goal import find_goal
-from pilotage.simulation import Simulator
+from pilotage.simulation import Scene, Simulator
 from pilotage.simulation.made_real import make_real
 from pilotage.simulation.proportions import Proportions
-from pilotage.web.drawings import Json, Page, describe_drawing, read_sent
-from pilotage.web.frames import Truth, describe_world
-from pilotage.web.order import LogOrder, MadeRealOrder, Order, Place
-from pilotage.web.replay import Replay, replay
+from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, read_sent
+from pilotage.web.frames import FrameMaker, Truth, describe_world
+from pilotage.web.order import MadeRealOrder, Order, Place, RecordingOrder
+from pilotage.web.playback import playback
+from pilotage.web.replay import replay
+from pilotage.web.show import Show
 
 Carry = Callable[[Array], Array]
 """Carries points (n, 2) from the drawing (y up) to the world [m]."""
+
+MOST_INSTANTS = 40_000
+"""Steps that are kept for journal and film: more than an hour."""
 
 
 class NoGoalError(PilotageError):
@@ -34,7 +40,7 @@ class NoGoalError(PilotageError):
 
 @dataclass(slots=True)
 class Stage:
-    """All that a drive is made of; the last three are for spectators only."""
+    """All that a drive is made of; truth, carry and boxes are for spectators only."""
 
     navigator: Navigator
     simulator: Simulator
@@ -42,11 +48,20 @@ class Stage:
     truth: Truth | None = None  # None if it is not known where the world is on the drawing
     world_from_sketch: Carry | None = None
     boxes: Array = field(default_factory=lambda: np.empty((0, 4)))  # sides of what a person put there [m]
+    instants: list[Instant] = field(default_factory=list)  # the record of the drive
+    sightings: list[Sighting] = field(default_factory=list)  # by which the drawing can be corrected
+    frames: FrameMaker = field(init=False)
+    scene: Scene = field(init=False)  # as it is shown
+
+    def __post_init__(self) -> None:
+        """Begin with what is there."""
+        self.frames = FrameMaker(self.navigator, self.page, self.truth)
+        self.scene = self.simulator.scene
 
     @property
-    def localizer(self) -> Localizer:
-        """The localizer."""
-        return self.navigator.position.localizer
+    def graph(self) -> CellGraph:
+        """The cells of the drawing."""
+        return self.navigator.planner.graph
 
     @property
     def stamp(self) -> float:
@@ -60,28 +75,43 @@ class Stage:
 
     @property
     def is_over(self) -> bool:
-        """A simulated world does not end."""
-        return False
+        """Whether the robot has ended the drive."""
+        return bool(self.instants) and self.instants[-1].step.outcome is not None
 
     @property
     def goal_name(self) -> str:
         """What the goal is called."""
         return self.navigator.planner.goal.name or "the goal"
 
-    def step(self) -> Instant:
+    def step(self) -> Step:
         """Read, step, move."""
         reading = self.simulator.read()
         began = time.process_time()
         step = self.navigator.step(reading.scan, reading.odometry)
-        instant = Instant(step, self.simulator.scene, 1e3 * (time.process_time() - began))
+        self.scene = self.simulator.scene
+        self.instants.append(Instant(step, self.scene, 1e3 * (time.process_time() - began)))
+        del self.instants[: max(0, len(self.instants) - MOST_INSTANTS)]
+        if self.navigator.position.is_fresh:
+            append_sighting(self.sightings, self.navigator.position.localizer, reading.scan)
+        self.frames.note()
         self.simulator.step(step.command)
-        return instant
+        return step
+
+    def look_again(self) -> None:
+        """Show what a person has changed since the last step."""
+        self.scene = self.simulator.scene
+
+    def frame(self) -> Json:
+        """Describe the last step."""
+        step = self.instants[-1].step
+        told = self.frames.frame(step, self.scene.scan, step.stamp, self.goal_name)
+        return {**told, "world": self.frames.world(self.scene)}
 
     def describe(self, title: str) -> Json:
         """Describe the drawing and the goal."""
         goal = self.page.point(self.navigator.planner.goal.point)
         drawn = {**describe_drawing(self.page.sketch), "goal": goal}
-        return {"title": title, "drawing": drawn, "goal": self.goal_name}
+        return {"kind": "drive", "title": title, "drawing": drawn, "goal": self.goal_name}
 
     def describe_world(self) -> Json:
         """Describe all that stands."""
@@ -94,15 +124,20 @@ class Stage:
         """Send the robot elsewhere."""
         self.navigator.set_goal(goal if isinstance(goal, str) else self.page.file_point(*goal))
 
+    def record(self) -> Drive:
+        """Gather all that happened."""
+        planner = self.navigator.planner
+        return Drive.of(planner.atlas, self.simulator.world, planner.goal, self.instants)
 
-def set_stage(order: Order) -> Stage | Replay:
+
+def set_stage(order: Order) -> Show:
     """Read drawing and world, and put the robot down; PilotageError or ValueError if that cannot be done."""
     settings = Settings()
     atlas = build_atlas(read_sent(order.drawing).sketch, settings.localizer.atlas)
     page = Page(atlas.sketch)
     told = None if order.start is None else (*page.file_point(*order.start[:2]), *order.start[2:])
-    if isinstance(order.world, LogOrder):
-        return replay(atlas, page, order.world.path, told, order.seed)
+    if isinstance(order.world, RecordingOrder):
+        return open_recording(order.world, atlas, page, told, order.seed)
     goal = goal_of(order, page)
     if isinstance(order.world, MadeRealOrder):
         return made_real(order.world, atlas, page, goal=goal, told=told, seed=order.seed, settings=settings)
@@ -122,6 +157,18 @@ def set_stage(order: Order) -> Stage | Replay:
     if warp is None:
         return Stage(navigator, simulator, page)
     return Stage(navigator, simulator, page, truth_by_warp(warp), warp.world_from_sketch)
+
+
+def open_recording(
+    order: RecordingOrder, atlas: Atlas, page: Page, told: tuple[float, ...] | None, seed: int
+) -> Show:
+    """Open a log or a journal; UnreadableError if it cannot be read."""
+    try:
+        if is_records(order.path):
+            return playback(atlas, page, order)
+        return replay(atlas, page, order.path, told, seed)
+    except FileError as error:
+        raise UnreadableError(f"{error.rule}: {order.title}") from error
 
 
 def made_real(

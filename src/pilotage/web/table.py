@@ -5,17 +5,28 @@ from dataclasses import dataclass, field
 from starlette.requests import HTTPConnection
 
 from pilotage.web.folder import Folder
+from pilotage.web.recordings import Recordings
 from pilotage.web.sessions import Sessions
 from pilotage.web.workers import Jobs
 
 
 @dataclass(slots=True)
 class Table:
-    """The folder, the workers and the drives."""
+    """The folder, the workers, the drives, and what pages sent."""
 
     folder: Folder
     jobs: Jobs = field(default_factory=Jobs)
     sessions: Sessions = field(default_factory=Sessions)
+    recordings: Recordings = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Look for recordings in the folder."""
+        self.recordings = Recordings(self.folder)
+
+    def close(self) -> None:
+        """End all drives, and delete what pages sent."""
+        self.sessions.close()
+        self.recordings.close()
 
 
 def table_of(asked: HTTPConnection) -> Table:

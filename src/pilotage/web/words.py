@@ -43,5 +43,11 @@ def whereabouts(estimate: Estimate, graph: CellGraph) -> str:
 
 
 def name_of(cell_id: str, graph: CellGraph) -> str:
-    """Name a cell as the drawing does, else by its id."""
-    return (graph.cell(cell_id).label or cell_id) if cell_id else "an unknown place"
+    """Name a cell in a sentence."""
+    return place_of(cell_id, graph) or "an unknown place"
+
+
+def place_of(cell_id: str, graph: CellGraph) -> str:
+    """Name a cell as the drawing does, else by its id; a journal may name one that is no longer drawn."""
+    index = graph.index_from_id.get(cell_id)
+    return cell_id if index is None else graph.cells[index].label or cell_id

@@ -6,28 +6,15 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from shutil import which
 
 import pytest
 
 pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
-from playwright.sync_api import Browser, Page, sync_playwright
+from benchmarks.lib.table_browser import opened_browser
+from playwright.sync_api import Browser, Page
 
 from web_page import Sheet
-
-CHROMIUM = which("chromium") or which("chromium-browser")
-ARGUMENTS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-"""A browser that needs no screen and asks nobody."""
 
 
 @pytest.fixture(scope="session")
@@ -58,12 +45,10 @@ def address(folder: Path) -> Iterator[str]:
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Debian's chromium; the test is skipped where there is none."""
-    if CHROMIUM is None:
-        pytest.skip("no chromium is installed")
-    with sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+    with opened_browser() as opened:
+        if opened is None:
+            pytest.skip("no chromium is installed")
         yield opened
-        opened.close()
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from web_page import PATIENCE_MS, Sheet
 
@@ -19,15 +19,28 @@ def set_goal(sheet: Sheet, x: float, y: float) -> None:
     sheet.page.mouse.click(x, y)
 
 
-def pick_up(sheet: Sheet) -> tuple[float, float]:
-    """Return where on the screen the robot is, in a drive that stands."""
+def in_the_world(sheet: Sheet, what: str) -> list[tuple[float, float]]:
+    """Return where the robot or the doors are in the world [m]."""
+    told = sheet.page.get_by_test_id("world").get_attribute(f"data-{what}") or ""
+    return [(float(x), float(y)) for x, y in (one.split(",") for one in told.split())]
+
+
+def pause(sheet: Sheet) -> None:
+    """Let the drive stand."""
     sheet.page.get_by_role("button", name="Pause").click()
     expect(sheet.page.get_by_role("button", name="Go on")).to_be_visible()
-    x, y = (
-        float(part)
-        for part in (sheet.page.get_by_test_id("world").get_attribute("data-robot") or "").split(",")
-    )
-    return sheet.in_world(x, y)
+
+
+def way_until(sheet: Sheet, outcome: str) -> list[tuple[float, float]]:
+    """Watch the drive to its end, and return the way of the robot through the world [m]."""
+    way = []
+    for _ in range(80 * PATIENCE_MS // 1000):
+        way += in_the_world(sheet, "robot")
+        if sheet.status.get_attribute("data-outcome"):
+            break
+        sheet.page.wait_for_timeout(100)
+    sheet.ended(outcome)
+    return way
 
 
 def test_a_robot_reaches_the_goal_on_a_drawing_made_real(sheet: Sheet) -> None:
@@ -43,6 +56,12 @@ def test_a_robot_reaches_the_goal_on_a_drawing_made_real(sheet: Sheet) -> None:
     timeline.fill("1")
     expect(sheet.page.get_by_role("button", name="Now")).to_be_enabled(timeout=PATIENCE_MS)
     sheet.shot("scrub")
+    with sheet.page.expect_download(timeout=8 * PATIENCE_MS) as video:
+        sheet.page.get_by_role("button", name="Video", exact=True).click()
+    content = video.value.path().read_bytes()
+    assert content[4:8] == b"ftyp" or content.startswith(b"\x1a\x45\xdf\xa3")  # MP4 or WebM
+    assert len(content) > 50_000
+    expect(sheet.page.get_by_role("button", name="Now")).to_be_disabled(timeout=PATIENCE_MS)
 
 
 def test_a_kidnapped_robot_doubts_and_finds_itself_again(sheet: Sheet) -> None:
@@ -54,7 +73,8 @@ def test_a_kidnapped_robot_doubts_and_finds_itself_again(sheet: Sheet) -> None:
     sheet.page.get_by_role("combobox", name="Speed").select_option("10")
     sheet.page.get_by_test_id("go").click()
     expect(sheet.marks).to_contain_text("believes", timeout=2 * PATIENCE_MS)
-    robot = pick_up(sheet)
+    pause(sheet)
+    robot = sheet.in_world(*in_the_world(sheet, "robot")[0])
     world = sheet.page.get_by_test_id("world").bounding_box()
     assert world is not None
     elsewhere = (world["x"] + 0.6 * world["width"], world["y"] + 0.3 * world["height"])
@@ -79,10 +99,7 @@ def test_a_closed_door_is_told_and_a_reload_goes_on_with_the_drive(sheet: Sheet)
     page.get_by_test_id("go").click()
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
     page.get_by_role("button", name="Door", exact=True).click()
-    x, y = (
-        float(part) for part in (page.get_by_test_id("world").get_attribute("data-door") or "").split(",")
-    )
-    page.mouse.click(*sheet.in_world(x, y))
+    page.mouse.click(*sheet.in_world(*in_the_world(sheet, "doors")[0]))
 
     expect(sheet.marks).to_contain_text("door", timeout=PATIENCE_MS)
     sheet.shot("door")
@@ -91,6 +108,93 @@ def test_a_closed_door_is_told_and_a_reload_goes_on_with_the_drive(sheet: Sheet)
     expect(sheet.marks).to_contain_text("door", timeout=PATIENCE_MS)
     page.get_by_role("button", name="Back to the drawing").click()
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+
+
+def test_a_door_closed_in_mid_drive_leads_to_a_detour(sheet: Sheet) -> None:
+    page = sheet.page
+    sheet.focus()
+    sheet.box(300, 150, 600, 620)
+    sheet.box(600, 150, 900, 620)
+    sheet.doors((600, 240), (600, 530))
+    expect(sheet.summary).to_contain_text("2 cells, 2 openings", timeout=PATIENCE_MS)
+    set_goal(sheet, 830, 230)
+    sheet.tool("Start")
+    sheet.drag((360, 230), (420, 230))
+    page.get_by_role("button", name="Drive", exact=True).click()
+    page.get_by_label("tell the robot where it starts").check()
+    sheet.drive(speed=1, severity=0.0)
+    pause(sheet)
+    near, far = sorted(in_the_world(sheet, "doors"), key=lambda door: door[1])
+    page.get_by_role("button", name="Door", exact=True).click()
+    page.mouse.click(*sheet.in_world(*near))
+    expect(sheet.marks).to_contain_text("a door was closed", timeout=PATIENCE_MS)
+    page.get_by_role("combobox", name="Speed").select_option("20")
+    page.get_by_role("button", name="Go on").click()
+    way = way_until(sheet, "reached")
+
+    sheet.shot("detour")
+    assert way[0][0] < near[0]
+    assert way[-1][0] > near[0]
+    crossing = min(way, key=lambda place: abs(place[0] - near[0]))
+    assert abs(crossing[1] - far[1]) < abs(crossing[1] - near[1])
+
+
+def test_a_drive_is_ordered_and_paused_by_keyboard_alone(sheet: Sheet) -> None:
+    page = sheet.page
+    tab_to(page.get_by_role("button", name="office, careful"))
+    page.keyboard.press("Enter")
+    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    tab_to(page.get_by_role("toolbar", name="Tools of the drawing table").get_by_role("button", name="Goal"))
+    page.keyboard.press("Enter")
+    for key in ("ArrowLeft", "Shift+ArrowLeft", "Enter"):
+        page.keyboard.press(key)
+    tab_to(page.get_by_role("button", name="Drive", exact=True))
+    page.keyboard.press("Enter")
+    expect(page.get_by_test_id("go")).to_be_enabled()
+    tab_to(page.get_by_test_id("go"))
+    page.keyboard.press("Enter")
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=2 * PATIENCE_MS)
+    tab_to(page.get_by_role("button", name="Pause"))
+    page.keyboard.press("Enter")
+
+    expect(page.get_by_role("button", name="Go on")).to_be_focused(timeout=PATIENCE_MS)
+    page.wait_for_timeout(500)
+    before = page.get_by_test_id("timeline").input_value()
+    page.wait_for_timeout(1000)
+    assert before == page.get_by_test_id("timeline").input_value()
+
+
+def tab_to(wanted: Locator) -> None:
+    """Press Tab until this has the keyboard."""
+    for _ in range(120):
+        if wanted.evaluate("one => one === document.activeElement"):
+            return
+        wanted.page.keyboard.press("Tab")
+    raise AssertionError(f"Tab does not lead to {wanted}")
+
+
+def test_a_drive_is_watched_on_a_phone(browser: Browser, address: str) -> None:
+    context = browser.new_context(viewport={"width": 390, "height": 760}, has_touch=True)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_selector("body[data-ready]")
+    page.get_by_role("button", name="office, quick").tap()
+    sheet = Sheet(page)
+    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    page.get_by_role("button", name="Drive", exact=True).tap()
+    page.get_by_role("combobox", name="Goal").select_option("Ana")
+    page.get_by_test_id("go").tap()
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=2 * PATIENCE_MS)
+    sheet.shot("phone-drive")
+
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    for plan in ("believed", "world"):
+        box = page.get_by_test_id(plan).bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) > 100
+    page.get_by_role("button", name="Pause").tap()
+    expect(page.get_by_role("button", name="Go on")).to_be_visible(timeout=PATIENCE_MS)
+    context.close()
 
 
 def test_nothing_seriously_bars_people_who_see_or_move_differently(page: Page, sheet: Sheet) -> None:

@@ -48,6 +48,9 @@ SIZES = {
 FARTHEST = 1e9
 """Largest coordinate that is accepted: beyond it, areas and lengths lose their digits or overflow."""
 
+SCALE = "data-metres-per-unit"
+"""Attribute of the root: metres in a unit of its viewBox."""
+
 Bounds = tuple[float, float, float, float]  # left, top, right, bottom
 
 
@@ -60,7 +63,17 @@ class Shape:
     bounds: Bounds
 
 
-def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]:
+@dataclass(frozen=True, slots=True)
+class Content:
+    """All that can be seen, and what the file says of the page on which it stands."""
+
+    shapes: list[Shape]
+    texts: list[Drawn]
+    page: Viewport | None
+    metres_per_unit: float | None  # what the file claims
+
+
+def read_content(path: Path) -> Content:
     """Read all shapes and texts that can be seen, and the page they stand on.
 
     Raises FileError for a file that is missing or is not SVG.
@@ -71,7 +84,20 @@ def read_content(path: Path) -> tuple[list[Shape], list[Drawn], Viewport | None]
         items = [item for item in walk(root) if item.style.shown]
         shapes = [shape for item in items for shape in read_shape(item)]
     texts = [item for item in items if local_name(item.element.tag) in WORDED and has_text(item)]
-    return shapes, texts, page
+    return Content(shapes, texts, page, read_scale(root))
+
+
+def read_scale(root: ET.Element) -> float | None:
+    """Read the scale that the drawing table writes when something was measured; None if it means nothing.
+
+    >>> read_scale(ET.Element("svg", {"data-metres-per-unit": "0.02"})), read_scale(ET.Element("svg"))
+    (0.02, None)
+    """
+    try:
+        metres = float(root.get(SCALE, ""))
+    except ValueError:
+        return None
+    return metres if 0.0 < metres < math.inf else None
 
 
 @contextmanager

@@ -25,14 +25,22 @@ def read_svg_sheet(path: Path) -> Sheet:
 
     Raises FileError for a file that is missing or is not SVG.
     """
-    shapes, texts, page = read_content(path)
+    content = read_content(path)
+    shapes, page = content.shapes, content.page
     with reading_values(path):
         walls = [shape for shape in shapes if shape.drawn.role is Role.WALL]
         tolerance = FLATNESS * diagonal_of(walls or shapes) if shapes else 0.0
         marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance))
-        words = tuple(text for item in texts for text in read_texts(item))
+        words = tuple(text for item in content.texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
-    return Sheet(marks, words + tuple(outlined_texts(shapes)), bounds, y_down=True, source=str(path))
+    return Sheet(
+        marks,
+        words + tuple(outlined_texts(shapes)),
+        bounds,
+        y_down=True,
+        metres_per_unit=content.metres_per_unit,
+        source=str(path),
+    )
 
 
 def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:

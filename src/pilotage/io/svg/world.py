@@ -46,11 +46,11 @@ def read_svg_world(path: Path) -> World:
     Raises FileError for a file that is missing, is not SVG, shows nothing solid, or holds a value that cannot
     be meant.
     """
-    shapes, _, page = read_content(path)
-    bodies = [shape for shape in shapes if shape.drawn.role in (Role.WALL, Role.FURNITURE)]
+    content = read_content(path)
+    bodies = [shape for shape in content.shapes if shape.drawn.role in (Role.WALL, Role.FURNITURE)]
     with reading_values(path):
         bodily = [shape for shape in bodies if shape.drawn.thing is not Thing.PERSON]
-        standing = without_background(bodily, page)
+        standing = without_background(bodily, content.page)
         walls = segments_of([shape for shape in standing if shape.drawn.thing is Thing.SOLID])
     if len(walls) == 0:
         raise FileError("a world needs at least one visible wall, found none", path)
@@ -60,7 +60,7 @@ def read_svg_world(path: Path) -> World:
             glass=segments_of([shape for shape in standing if shape.drawn.thing is Thing.GLASS]),
             doors=tuple(door for shape in standing for door in read_doors(shape)),
             people=tuple(person for shape in bodies for person in read_people(shape)),
-            start=read_start(shapes),
+            start=read_start(content.shapes),
         )
     except (ValueError, TypeError, IndexError, ArithmeticError) as error:
         raise FileError(f"a world holds an invalid value ({error})", path) from error

@@ -1,0 +1,70 @@
+// What is laid on the sheet: a drawing of the folder, an example, a file of one's own, or nothing.
+import { useCallback, useRef } from "react";
+import { loadDrawing, loadExample, SVG } from "./api";
+import { isRecording, stem } from "./disk";
+import type { Opening } from "./Files";
+import { openContent } from "./opening";
+import { sceneIn, type Scene } from "./svg";
+import type { Autosave } from "./useAutosave";
+
+/** A drawing as the server knows it. */
+export type Origin = { drawing: string } | { content: { media: string; text: string } };
+
+interface Sheet {
+  save: Autosave;
+  whole: () => string; // the present drawing as text
+  show: (scene: Scene) => void;
+  tell: (text: string) => void;
+  watch: (file: File) => void;
+  begin: () => void; // drawing on an empty sheet
+}
+
+export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
+  opening: Opening;
+  openNamed: (name: string) => Promise<void>;
+  guarded: (action: () => Promise<void>) => void;
+  /** The file that the drawing comes from, in whose units its journals are; null if the table drew it. */
+  origin: () => Origin | null;
+} {
+  const from = useRef<Origin | null>(null);
+
+  const openBlob = useCallback(async (name: string, content: Blob, title: string, origin: Origin | null) => {
+    const opened = await openContent(name, content);
+    show(opened);
+    from.current = origin;
+    save.adopt({ name: "", base: stem(title), tag: null }, whole());
+    if (opened.notes.length) tell(opened.notes.join("; "));
+  }, [save, show, tell, whole]);
+
+  const openNamed = useCallback(async (name: string) => {
+    const { text, tag } = await loadDrawing(name);
+    show(await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" })));
+    const own = text.includes("drawing-table-scene");
+    from.current = own ? null : { drawing: name };
+    save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());
+    if (!own) tell(`${name} stays as it is; what you change is saved as a copy`);
+  }, [save, show, tell, whole]);
+
+  const guarded = useCallback((action: () => Promise<void>) => {
+    save.saveNow().then(action).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
+  }, [save, tell]);
+
+  const opening: Opening = {
+    openDrawing: (name) => guarded(() => openNamed(name)),
+    openExample: (name) => guarded(async () => openBlob("example.svg", new Blob([await loadExample(name)], { type: SVG }), name, { drawing: `example:${name}` })),
+    openFile: (file) => (isRecording(file.name) ? watch(file) : guarded(async () => openBlob(file.name, file, file.name, await originOf(file)))),
+    openEmpty: () => guarded(async () => {
+      show({ elements: [], files: {} });
+      from.current = null;
+      save.adopt({ name: "", base: "drawing", tag: null }, whole());
+      begin();
+    }),
+  };
+  return { opening, openNamed, guarded, origin: useCallback(() => from.current, []) };
+}
+
+async function originOf(file: File): Promise<Origin | null> {
+  if (!/\.svg$/i.test(file.name)) return null;
+  const text = await file.text();
+  return sceneIn(text) ? null : { content: { media: SVG, text } };
+}

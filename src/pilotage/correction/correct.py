@@ -1,0 +1,107 @@
+"""The drawing as the robot found it: in metres, and what of it was seen."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.correction.corrected import (
+    CorrectedDrawing,
+    carried_polygon,
+    carried_sketch,
+    pieces_of,
+    split_by_sight,
+)
+from pilotage.correction.fit import Fit, Surfaces, fit
+from pilotage.correction.passages import find_passages
+from pilotage.correction.sighting import Sighting
+from pilotage.correction.walls import Carried, Pieces, associate
+from pilotage.geometry import Polyline, Pose2
+from pilotage.maps import Atlas, SchematicMap
+
+BELIEVED = 0.5
+"""Probability from which on an estimate is believed."""
+FEWEST = 10
+"""Believed sightings that a correction needs: 5 m of travel."""
+SEEN_POINTS = 3
+"""Surface points that show a piece of a wall ..."""
+SEEN_WITHIN = 0.3
+"""[m] ... if they are no farther from it."""
+
+
+class NothingBelievedError(ValueError):
+    """The localizer was hardly ever sure enough of its place."""
+
+
+def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDrawing:
+    """Move the strokes of a drawing to where the robot saw its walls, in metres.
+
+    Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not.
+    """
+    believed = sum(one.probability >= BELIEVED for one in sightings)
+    if believed < FEWEST:
+        raise NothingBelievedError(
+            f"a correction needs {FEWEST} keyframes of at least probability {BELIEVED:g}, got {believed}"
+        )
+    found = laid_as_drawn(fit(atlas.sketch, sightings, BELIEVED), atlas.sketch)
+    seen: list[Polyline] = []
+    unseen: list[Polyline] = []
+    sights = find_seen(atlas, sightings, found)
+    for stroke, flags in zip(atlas.sketch.strokes, sights, strict=True):
+        of_stroke = split_by_sight(stroke, flags, found.elastic)
+        seen += of_stroke[0]
+        unseen += of_stroke[1]
+    graph = atlas.cell_graph
+    return CorrectedDrawing(
+        carried_sketch(atlas.sketch, found.elastic),
+        tuple(seen),
+        tuple(unseen),
+        () if graph is None else find_passages(graph, sightings, found.path, found.elastic),
+        () if graph is None else tuple(carried_polygon(cell.polygon, found.elastic) for cell in graph.cells),
+        found.path.poses,
+        found.elastic,
+        max(2.0 * found.half_thickness, 0.0),
+    )
+
+
+def laid_as_drawn(found: Fit, sketch: SchematicMap) -> Fit:
+    """Turn all as the sheet lies, and move the lower left of the strokes near the origin."""
+    (a, _), (c, _) = found.elastic.linear
+    turn = Pose2(0.0, 0.0, -math.atan2(c, a))
+    vertices = np.vstack([stroke.vertices for stroke in sketch.strokes])
+    low = (turn @ (found.elastic @ vertices)).min(axis=0)
+    sheet_from_odom = Pose2(-float(low[0]), -float(low[1]), turn.theta)
+    poses = np.column_stack([sheet_from_odom @ found.path.places, found.path.poses[:, 2] + turn.theta])
+    elastic = replace(found.elastic, coefficients=sheet_from_odom @ found.elastic.coefficients)
+    return replace(found, elastic=elastic, path=replace(found.path, poses=poses))
+
+
+def find_seen(atlas: Atlas, sightings: Sequence[Sighting], found: Fit) -> list[NDArray[np.bool_]]:
+    """Tell which pieces of each stroke were seen."""
+    of_strokes = [pieces_of(stroke, found.elastic) for stroke in atlas.sketch.strokes]
+    pieces = Pieces(
+        np.vstack([one.starts for one in of_strokes]),
+        np.vstack([one.ends for one in of_strokes]),
+        np.zeros(sum(map(len, of_strokes)), dtype=np.intp),
+    )
+    surfaces, path = Surfaces.of(sightings), found.path
+    points = path.from_base(surfaces.points, surfaces.owners)
+    normals = path.turned(surfaces.normals, surfaces.owners)
+    lasers = path.from_base(surfaces.lasers, surfaces.owners)
+    carried = Carried.by(found.elastic, pieces)
+    shown = associate(carried, lasers, points, normals)
+    chosen, shares = shown.pieces, shown.shares[:, np.newaxis]
+    places = carried.starts[chosen] * (1.0 - shares) + carried.ends[chosen] * shares
+    off = ((places - points[shown.points]) * normals[shown.points]).sum(axis=1) + found.half_thickness
+    counts = np.bincount(chosen[np.abs(off) < SEEN_WITHIN], minlength=len(pieces))
+    bounds = np.cumsum([len(one) for one in of_strokes])[:-1]
+    return [without_gaps(flags) for flags in np.split(counts >= SEEN_POINTS, bounds)]
+
+
+def without_gaps(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Take a single piece between two that were seen as seen."""
+    filled = seen.copy()
+    filled[1:-1] |= seen[:-2] & seen[2:]
+    return filled

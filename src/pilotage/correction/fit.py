@@ -1,0 +1,257 @@
+"""Fit an elastic map, the robot's path and the thickness of walls to sightings: sparse least squares.
+
+Non-rigid registration as in Amberg, Romdhani and Vetter 2007: associate, solve, associate again, with a
+stiffness that falls. The unknowns are the map's coefficients, changes of the path's knots, and half the
+thickness of a wall, which is drawn as one stroke and seen from two sides.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import block_diag, coo_matrix, csr_matrix, diags, hstack, vstack
+from scipy.sparse.linalg import splu
+
+from pilotage.correction.sighting import Sighting
+from pilotage.correction.spline import ElasticMap, Rows, SplineGrid
+from pilotage.correction.trajectory import Path, path_of
+from pilotage.correction.walls import Association, Carried, Pieces, associate
+from pilotage.geometry import Array
+from pilotage.maps import SchematicMap
+
+SPACING = 1.5
+"""[m] of the spline's grid."""
+MOST_NODES = 6_000
+"""Nodes of the grid, at most."""
+STAGES = ((300.0, 1.5, 4), (300.0, 1.0, 2), (100.0, 0.5, 2))
+"""Stiffness of the bending energy, gate of the robust kernel [m] and rounds of each stage."""
+RATHER_RIGID = 0.3
+"""Weight of the squared gradient's difference from the similarity: what is not seen keeps its shape."""
+STRAIGHT = 100.0
+"""Weight of the squared bend of drawn straight lines, a row for each joint of pieces."""
+WALL_STD = 0.1
+"""[m] of a surface point from its wall."""
+POINTS_AN_EYE = 8.0
+"""Number of independent surface points in a sighting: more of them err together."""
+THICKNESS_STD = 0.01
+"""[m] Prior of half the thickness of a wall is 0 with this spread over the weight of all points."""
+PLACE_STD, PLACE_STD_SHARE = 0.7, 0.15
+"""[m, share of its distance] of a point seen from an estimate: where the estimate puts it on the drawing."""
+LATER = 0.05
+"""Weight of the estimates once walls are associated."""
+NEAR, EVERY = 6.0, 6
+"""[m] Of the surface points within this distance every sixth goes with the estimate."""
+GATES = (1e9, 20.0, 10.0, 6.0, 4.0, 4.0, 4.0)
+"""[m] of the robust kernel while the similarity is found."""
+MIN_GATE = 2.0
+"""[m] of the robust kernel for estimates afterwards, at least."""
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Points of all sightings in one array, each in the frame of its sighting."""
+
+    points: Array  # (m, 2) [m]
+    owners: NDArray[np.intp]  # (m,) numbers of sightings
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces(Points):
+    """Surface points."""
+
+    normals: Array  # (m, 2)
+    lasers: Array  # (m, 2) where the beams began [m]
+
+    @classmethod
+    def of(cls, sightings: Sequence[Sighting]) -> "Surfaces":
+        """Join those of all sightings."""
+        counts = [len(one.points) for one in sightings]
+        return cls(
+            np.vstack([one.points for one in sightings]),
+            np.repeat(np.arange(len(sightings)), counts),
+            np.vstack([one.normals for one in sightings]),
+            np.repeat(np.array([one.laser for one in sightings]), counts, axis=0),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Beliefs(Points):
+    """Points around the robot, and where the believed estimates put them on the drawing."""
+
+    in_sketch: Array  # (m, 2) [drawing units]
+    weights: Array  # (m,) reciprocal standard deviation [1/m]
+
+    @classmethod
+    def of(cls, sightings: Sequence[Sighting], believed: float) -> "Beliefs":
+        """Take the robot itself and some surface points of each sighting that is at least so probable."""
+        points, owners, in_sketch, weights = [], [], [], []
+        for number, one in enumerate(sightings):
+            if one.probability < believed:
+                continue
+            near = one.points[np.hypot(*one.points.T) < NEAR][::EVERY]
+            here = np.vstack([np.zeros((1, 2)), near])
+            points.append(here)
+            owners.append(np.full(len(here), number))
+            in_sketch.append(one.sketch_from_base @ here)
+            std = PLACE_STD + PLACE_STD_SHARE * np.hypot(*here.T)
+            weights.append(np.sqrt(one.probability / len(here)) / std)
+        return cls(np.vstack(points), np.concatenate(owners), np.vstack(in_sketch), np.concatenate(weights))
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """What was found."""
+
+    elastic: ElasticMap  # from the drawing to metres
+    path: Path
+    half_thickness: float  # [m]
+
+
+def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) -> Fit:
+    """Fit to sightings, of which at least one is as probable as `believed`."""
+    path = path_of([one.odom_from_base for one in sightings], np.array([one.travel for one in sightings]))
+    surfaces, beliefs = Surfaces.of(sightings), Beliefs.of(sightings, believed)
+    linear, translation = robust_similarity(
+        beliefs.in_sketch, path.from_base(beliefs.points, beliefs.owners), beliefs.weights
+    )
+    segments = sketch.segments
+    rough = np.hstack([segments[:, :2] @ linear.T + translation, segments[:, 2:] @ linear.T + translation])
+    grid = SplineGrid.over(rough.reshape(-1, 2), SPACING, MOST_NODES)
+    found = Fit(ElasticMap(linear, translation, grid, grid.nodes), path, 0.0)
+    problem = Problem(Pieces.of(rough), surfaces, beliefs, grid)
+    for number, (stiffness, gate, rounds) in enumerate(STAGES):
+        for turn in range(rounds):
+            by_estimates = number == 0 and turn < rounds - 1  # walls are not associated yet
+            found = problem.solved(found, stiffness, gate, by_estimates=by_estimates)
+    return found
+
+
+class Problem:
+    """The equations, linear around the last solution."""
+
+    def __init__(self, pieces: Pieces, surfaces: Surfaces, beliefs: Beliefs, grid: SplineGrid) -> None:
+        self.pieces, self.surfaces, self.beliefs, self.grid = pieces, surfaces, beliefs, grid
+        bending, gradient, straight = grid.bending, grid.gradient, pieces.straightness(grid)
+        self._bending = bending.T @ bending
+        self._rigid = RATHER_RIGID * gradient.T @ gradient
+        self._straight = STRAIGHT * straight.T @ straight
+        self._rigid_sums = self._rigid @ grid.nodes
+
+    def solved(self, last: Fit, stiffness: float, gate: float, *, by_estimates: bool) -> Fit:
+        """Solve once around the last solution."""
+        rows, wanted = zip(*self._equations(last, gate, by_estimates=by_estimates), strict=True)
+        matrix, right = vstack(rows).tocsr(), np.concatenate(wanted)
+        nodes, knots = len(self.grid.nodes), len(last.path.knots)
+        smooth = stiffness * self._bending + self._rigid + self._straight
+        path_prior = np.full(3 * knots + 1, 1e-3)
+        path_prior[:3] = 1e6  # the path begins where it began
+        path_prior[-1] = 1.0 / THICKNESS_STD**2
+        prior = block_diag([smooth + 1e-6 * diags(np.ones(nodes))] * 2 + [diags(path_prior)])
+        sums = matrix.T @ right
+        sums[:nodes] += self._rigid_sums[:, 0]
+        sums[nodes : 2 * nodes] += self._rigid_sums[:, 1]
+        normal = (matrix.T @ matrix + prior).tocsc()
+        solution = splu(
+            normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        ).solve(sums)
+        elastic = replace(last.elastic, coefficients=solution[: 2 * nodes].reshape(2, nodes).T)
+        return Fit(elastic, last.path.changed(solution[2 * nodes : -1]), float(solution[-1]))
+
+    def _equations(self, last: Fit, gate: float, *, by_estimates: bool) -> list[tuple[Rows, Array]]:
+        """Weighted rows on all unknowns and what they should be."""
+        nodes = len(self.grid.nodes)
+        motions, wanted = last.path.motion_rows()
+        front, back = csr_matrix((len(wanted), 2 * nodes)), csr_matrix((len(wanted), 1))
+        equations = [(hstack([front, motions, back]), wanted)]
+        equations += self._belief_rows(last, max(4.0 * gate, MIN_GATE), 1.0 if by_estimates else LATER)
+        if not by_estimates and len(self.surfaces.points):
+            equations.append(self._wall_rows(last, gate))
+        return equations
+
+    def _belief_rows(self, last: Fit, gate: float, share: float) -> list[tuple[Rows, Array]]:
+        """Say that a point lies where the place of the drawing lies at which the estimate put it."""
+        beliefs, path = self.beliefs, last.path
+        basis = self.grid.basis(last.elastic.roughly(beliefs.in_sketch))
+        targets = path.from_base(beliefs.points, beliefs.owners)
+        off = np.hypot(*(basis @ last.elastic.coefficients - targets).T)
+        weights = beliefs.weights * np.sqrt(share * robust(off, gate))
+        arms = targets - path.places[beliefs.owners]
+        weighted = basis.multiply(weights[:, np.newaxis])
+        empty, last_column = csr_matrix(basis.shape), csr_matrix((len(weights), 1))
+        equations = []
+        for axis, arm in ((0, -arms[:, 1]), (1, arms[:, 0])):
+            direction = np.zeros((len(weights), 2))
+            direction[:, axis] = weights
+            knots = pose_rows(path, beliefs.owners, -direction, -weights * arm)
+            maps = [weighted, empty] if axis == 0 else [empty, weighted]
+            equations.append((hstack([*maps, knots, last_column]), weights * targets[:, axis]))
+        return equations
+
+    def _wall_rows(self, last: Fit, gate: float) -> tuple[Rows, Array]:
+        """Say that a surface point lies half a thickness before the wall that it shows."""
+        path, surfaces = last.path, self.surfaces
+        points = path.from_base(surfaces.points, surfaces.owners)
+        normals = path.turned(surfaces.normals, surfaces.owners)
+        lasers = path.from_base(surfaces.lasers, surfaces.owners)
+        shown = associate(Carried.by(last.elastic, self.pieces), lasers, points, normals)
+        owners, points, normals = surfaces.owners[shown.points], points[shown.points], normals[shown.points]
+        basis = self.grid.basis(places_of(shown, self.pieces))
+        off = ((basis @ last.elastic.coefficients - points) * normals).sum(axis=1) + last.half_thickness
+        kernel = robust(off, gate)
+        counts = np.bincount(owners, kernel, len(path.poses))[owners]
+        weights = np.sqrt(kernel * np.minimum(1.0, POINTS_AN_EYE / np.maximum(counts, 1.0))) / WALL_STD
+        direction = normals * weights[:, np.newaxis]
+        arms = points - path.places[owners]
+        turning = direction[:, 1] * arms[:, 0] - direction[:, 0] * arms[:, 1]
+        rows = hstack(
+            [
+                basis.multiply(direction[:, :1]),
+                basis.multiply(direction[:, 1:]),
+                pose_rows(path, owners, -direction, -turning),
+                csr_matrix(weights[:, np.newaxis]),
+            ]
+        )
+        return rows, (direction * points).sum(axis=1)
+
+
+def pose_rows(path: Path, owners: NDArray[np.intp], moving: Array, turning: Array) -> Rows:
+    """Rows on changes of the knots, from those on moves (m, 2) and turns (m,) of the poses (m,)."""
+    count = len(owners)
+    columns = np.concatenate([3 * owners, 3 * owners + 1, 3 * owners + 2])
+    values = np.concatenate([moving[:, 0], moving[:, 1], turning])
+    rows = coo_matrix((values, (np.tile(np.arange(count), 3), columns)), shape=(count, 3 * len(path.poses)))
+    return rows.tocsr() @ path.pose_changes
+
+
+def places_of(shown: Association, pieces: Pieces) -> Array:
+    """Return the places that are shown, (k, 2) [roughly metres]."""
+    starts, ends = pieces.starts[shown.pieces], pieces.ends[shown.pieces]
+    return np.asarray(starts + shown.shares[:, np.newaxis] * (ends - starts))
+
+
+def robust(off: Array, gate: float) -> Array:
+    """Weigh residuals (n,) as the kernel of Geman and McClure does: those beyond the gate hardly count."""
+    return np.asarray((gate**2 / (gate**2 + off**2)) ** 2)
+
+
+def robust_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:
+    """Fit a similarity, linear (2, 2) and translation (2,), to pairs (n, 2), most of which agree."""
+    kernel = np.ones(len(points))
+    linear, translation = np.eye(2), np.zeros(2)
+    for gate in GATES:
+        linear, translation = weighted_similarity(points, images, kernel * weights**2)
+        kernel = robust(np.hypot(*(points @ linear.T + translation - images).T), gate)
+    return linear, translation
+
+
+def weighted_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:
+    """Fit a similarity by weighted least squares: as complex numbers, images = factor points + shift."""
+    shares = weights / weights.sum()
+    a, b = points @ (1.0, 1j), images @ (1.0, 1j)
+    middle_a, middle_b = shares @ a, shares @ b
+    a, b = a - middle_a, b - middle_b
+    factor = (shares @ (a.conj() * b)) / max(float(shares @ np.abs(a) ** 2), 1e-300)
+    shift = middle_b - factor * middle_a
+    linear = np.array([[factor.real, -factor.imag], [factor.imag, factor.real]])
+    return linear, np.array([shift.real, shift.imag])

@@ -1,0 +1,27 @@
+"""Marks on the timeline: where something changes from one step to the next."""
+
+from collections.abc import Iterator
+
+from pilotage.localization import Status
+from pilotage.maps import CellGraph
+from pilotage.navigation import Outcome, Step
+from pilotage.web.words import name_of
+
+
+def changes(before: Step | None, now: Step, graph: CellGraph) -> Iterator[tuple[str, str]]:
+    """Tell what has changed since the step before: the kind of each change, and words."""
+    was = before.estimate.status if before is not None else Status.LOST
+    status = now.estimate.status
+    if status is Status.LOCATED and status is not was:
+        yield "found", f"believes to be in {name_of(now.estimate.cell_id, graph)}"
+    elif status is Status.LOST and status is not was:
+        yield "lost", "does not know where it is any more"
+    elif status is not was:
+        yield "mismatch", "what it sees does not fit this drawing"
+    old = before.closed_gateway_ids if before is not None else ()
+    for gateway_id in now.closed_gateway_ids:
+        if gateway_id not in old:
+            yield "blocked", f"found no way through {gateway_id}"
+    if now.outcome is not None:
+        kind = "reached" if now.outcome is Outcome.REACHED else "gave up"
+        yield kind, now.reason or now.outcome.value
