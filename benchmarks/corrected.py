@@ -7,8 +7,8 @@ drawing is corrected. Points along the drawn walls that the robot saw are compar
 known by control points: the drawing after the best similarity to the truth, the corrected drawing after the
 best rigid motion, as its unit is the metre. The gap is the distance to the nearest laser hit at the true
 poses, whatever it shows. Defaults were chosen on aces, belgioioso, csail and freiburg-079, but `schematic` of
-fhw and of freiburg-101 were in view as well; their other drawings are held out. What was seen along a log is kept in a cache folder while the code
-that makes it stays the same.
+fhw and of freiburg-101 were in view as well; their other drawings are held out. What was seen along a log
+is kept in a cache folder while the code that makes it stays the same.
 """
 
 import argparse
@@ -162,9 +162,9 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "How far walls that the robot saw are from their true places, in the drawing at its best"
-                " scale and in the drawing as corrected after the log of the building. Defaults were chosen with `schematic` of the held-out"
-                " buildings in view, too. Where believed places contradict each other nothing is corrected"
-                " (aces and freiburg-101, `schematic`)."
+                " scale and in the drawing as corrected after the log of the building. Defaults were chosen"
+                " with `schematic` of the held-out buildings in view, too. Where believed places contradict"
+                " each other nothing is corrected (aces and freiburg-101, `schematic`)."
             ),
             "",
             table(
