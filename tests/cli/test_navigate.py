@@ -207,3 +207,12 @@ def test_a_wrong_call_is_exit_code_2(call, site, words):
     assert 2 == outcome.code
     assert (words[-2] if words else "--goal") in outcome.err
     assert not site[2].exists()
+
+
+def test_a_corrected_drawing_needs_a_folder(pilotage, site):
+    drawing, world, _, _ = site
+
+    outcome = pilotage("navigate", drawing, "--world", world, "--corrected")
+
+    assert 2 == outcome.code
+    assert "a corrected drawing needs a folder" in " ".join(outcome.err.split())

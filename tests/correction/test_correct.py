@@ -176,3 +176,17 @@ def test_a_gateway_is_open_if_the_robot_went_through_it():
 
     assert state_of(segment, lasers, lasers + np.array([2.05, 0.0]), through) is PassageState.OPEN
     assert state_of(segment, lasers, lasers + np.array([2.05, 0.0]), past) is PassageState.CLOSED
+
+
+def test_places_that_contradict_each_other_are_not_used():
+    def draw(points):
+        return 10.0 * points
+
+    def elsewhere(points):
+        return draw(points) + 200.0
+
+    seen, wrong = sightings(draw), sightings(elsewhere)
+    mixed = [wrong[k] if k % 2 else seen[k] for k in range(len(seen))]
+
+    with pytest.raises(NothingBelievedError, match="must agree"):
+        correct_drawing(drawn(draw), mixed)
