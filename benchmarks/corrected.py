@@ -6,20 +6,24 @@ The whole log of a building is localized on a drawing, told neither start nor he
 drawing is corrected. Points along the drawn walls that the robot saw are compared with their true places,
 known by control points: the drawing after the best similarity to the truth, the corrected drawing after the
 best rigid motion, as its unit is the metre. The gap is the distance to the nearest laser hit at the true
-poses, whatever it shows. Defaults were chosen on aces, belgioioso, csail and freiburg-079; fhw and
-freiburg-101 are held out.
+poses, whatever it shows. Defaults were chosen on aces, belgioioso, csail and freiburg-079, but `schematic` of
+fhw and of freiburg-101 were in view as well; their other drawings are held out. What was seen along a log
+is kept in a cache folder while the code that makes it stays the same.
 """
 
 import argparse
+import hashlib
+import pickle
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 import numpy as np
+import platformdirs
 from PIL import Image
 
 from benchmarks.lib.arguments import add_drawings, add_jobs
-from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, TUNED, drawing_of, drawings
+from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, ROOT, TUNED, drawing_of, drawings
 from benchmarks.lib.occupancy import PIXEL
 from benchmarks.lib.results import Figures, mean_of
 from benchmarks.lib.tables import prose, table
@@ -29,8 +33,12 @@ from pilotage.evaluation.walls import TrueWalls
 from pilotage.evaluation.warp import read_warp
 from pilotage.geometry import Array
 from pilotage.io import open_log, open_map
+from pilotage.io.files import replacing
 from pilotage.io.map_server import read_entries
 from pilotage.localization import Localizer
+from pilotage.maps import AtlasSettings, build_atlas
+
+STORE = platformdirs.user_cache_path("pilotage") / "sightings"
 
 HEAD = f"{'building':13s}{'hand':11s}{'before':>8s}{'after':>8s}{'ratio':>7s}{'gap before':>12s}{'after':>8s}"
 
@@ -74,20 +82,44 @@ def row_of(building: str, hand: str) -> Figures:
     """Localize along a log, correct the drawing, and score it; without a correction it stays as it is."""
     path = drawing_of(building, hand)
     sketch = open_map(path)
-    localizer = Localizer(sketch)
-    sightings: list[Sighting] = []
-    for reading in open_log(LOGS / f"{building}.log.gz"):
-        localizer.update(reading.scan, reading.odometry)
-        append_sighting(sightings, localizer, reading.scan)
     truth = TrueWalls.of(sketch, read_warp(path.with_suffix(".json"), sketch), hits_in(building))
     before, gap_before = truth.error_of_drawing(), truth.gap_of_drawing()
     row = {"before_m": before, "after_m": before, "gap_before_m": gap_before, "gap_after_m": gap_before}
     try:
-        corrected = correct_drawing(localizer.atlas, sightings)
+        corrected = correct_drawing(build_atlas(sketch, AtlasSettings()), kept_sightings(building, hand))
     except NothingBelievedError:
         return {**row, "corrected": 0.0}
     places = corrected.metres_from_sketch @ truth.in_sketch
     return {**row, "after_m": truth.error_of(places), "gap_after_m": truth.gap_of(places), "corrected": 1.0}
+
+
+def kept_sightings(building: str, hand: str) -> list[Sighting]:
+    """Take the sightings of a log from the store if the code that makes them has not changed since."""
+    kept = STORE / code_key() / f"{building}-{hand}.pickle"
+    if kept.exists():
+        return list(pickle.loads(kept.read_bytes()))  # noqa: S301  # written below
+    sightings = sightings_of(building, hand)
+    with replacing(kept) as beside:
+        beside.write_bytes(pickle.dumps(sightings))
+    return sightings
+
+
+def sightings_of(building: str, hand: str) -> list[Sighting]:
+    """Localize along a whole log."""
+    localizer = Localizer(open_map(drawing_of(building, hand)))
+    sightings: list[Sighting] = []
+    for reading in open_log(LOGS / f"{building}.log.gz"):
+        localizer.update(reading.scan, reading.odometry)
+        append_sighting(sightings, localizer, reading.scan)
+    return sightings
+
+
+def code_key() -> str:
+    """Hash the code that sightings depend on."""
+    files = [ROOT / "src/pilotage/correction/sighting.py"]
+    for package in ("kernels", "geometry", "shape", "perception", "scan_matching", "maps", "localization"):
+        files += sorted((ROOT / "src/pilotage" / package).rglob("*.py"))
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:16]
 
 
 def hits_in(building: str) -> Array:
@@ -130,7 +162,9 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "How far walls that the robot saw are from their true places, in the drawing at its best"
-                " scale and in the drawing as corrected after the log of the building."
+                " scale and in the drawing as corrected after the log of the building. Defaults were chosen"
+                " with `schematic` of the held-out buildings in view, too. Where believed places contradict"
+                " each other nothing is corrected (aces and freiburg-101, `schematic`)."
             ),
             "",
             table(

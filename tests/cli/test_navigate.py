@@ -226,3 +226,12 @@ def test_a_footprint_that_is_none_is_refused(call, words):
 
     assert 2 == outcome.code
     assert "LENGTHxWIDTH" in outcome.err
+
+
+def test_a_corrected_drawing_needs_a_folder(pilotage, site):
+    drawing, world, _, _ = site
+
+    outcome = pilotage("navigate", drawing, "--world", world, "--corrected")
+
+    assert 2 == outcome.code
+    assert "a corrected drawing needs a folder" in " ".join(outcome.err.split())

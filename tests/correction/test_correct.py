@@ -162,8 +162,31 @@ def test_normals_point_to_the_laser():
 def test_a_gateway_is_open_if_beams_go_through_and_closed_if_they_end_there():
     segment = np.array([[0.0, -0.5], [0.0, 0.5]])
     across = np.linspace(-0.45, 0.45, 20)
-    lasers = np.column_stack([np.full(20, -2.0), across])
+    lasers, still = np.column_stack([np.full(20, -2.0), across]), np.array([[-2.0, 0.0]])
 
-    assert state_of(segment, lasers, lasers + np.array([5.0, 0.0])) is PassageState.OPEN
-    assert state_of(segment, lasers, lasers + np.array([2.05, 0.0])) is PassageState.CLOSED
-    assert state_of(segment, lasers, lasers + np.array([1.0, 0.0])) is PassageState.UNSEEN
+    assert state_of(segment, lasers, lasers + np.array([5.0, 0.0]), still) is PassageState.OPEN
+    assert state_of(segment, lasers, lasers + np.array([2.05, 0.0]), still) is PassageState.CLOSED
+    assert state_of(segment, lasers, lasers + np.array([1.0, 0.0]), still) is PassageState.UNSEEN
+
+
+def test_a_gateway_is_open_if_the_robot_went_through_it():
+    segment = np.array([[0.0, -0.5], [0.0, 0.5]])
+    lasers = np.column_stack([np.full(20, -2.0), np.linspace(-0.45, 0.45, 20)])
+    through, past = np.array([[-1.0, 0.7], [1.0, 0.7]]), np.array([[-1.0, 3.0], [1.0, 3.0]])
+
+    assert state_of(segment, lasers, lasers + np.array([2.05, 0.0]), through) is PassageState.OPEN
+    assert state_of(segment, lasers, lasers + np.array([2.05, 0.0]), past) is PassageState.CLOSED
+
+
+def test_places_that_contradict_each_other_are_not_used():
+    def draw(points):
+        return 10.0 * points
+
+    def elsewhere(points):
+        return draw(points) + 200.0
+
+    seen, wrong = sightings(draw), sightings(elsewhere)
+    mixed = [wrong[k] if k % 2 else seen[k] for k in range(len(seen))]
+
+    with pytest.raises(NothingBelievedError, match="must agree"):
+        correct_drawing(drawn(draw), mixed)

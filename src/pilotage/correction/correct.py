@@ -25,6 +25,8 @@ BELIEVED = 0.5
 """Probability from which on an estimate is believed."""
 FEWEST = 10
 """Believed sightings that a correction needs: 5 m of travel."""
+AGREEING, WITHIN = 2.0 / 3.0, 2.0
+"""Least share of the believed places that must lie on the path, to this distance [m]."""
 SEEN_POINTS = 3
 """Surface points that show a piece of a wall ..."""
 SEEN_WITHIN = 0.3
@@ -32,13 +34,14 @@ SEEN_WITHIN = 0.3
 
 
 class NothingBelievedError(ValueError):
-    """The localizer was hardly ever sure enough of its place."""
+    """The localizer was hardly ever sure of its place, or was sure of places that contradict each other."""
 
 
 def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDrawing:
     """Move the strokes of a drawing to where the robot saw its walls, in metres.
 
-    Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not.
+    Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not, or if
+    more than a third of these places do not lie on one path.
     """
     believed = sum(one.probability >= BELIEVED for one in sightings)
     if believed < FEWEST:
@@ -46,6 +49,7 @@ def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDra
             f"a correction needs {FEWEST} keyframes of at least probability {BELIEVED:g}, got {believed}"
         )
     found = laid_as_drawn(fit(atlas.sketch, sightings, BELIEVED), atlas.sketch)
+    check_agreement(found, sightings)
     seen: list[Polyline] = []
     unseen: list[Polyline] = []
     sights = find_seen(atlas, sightings, found)
@@ -66,6 +70,18 @@ def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDra
     )
 
 
+def check_agreement(found: Fit, sightings: Sequence[Sighting]) -> None:
+    """Raise NothingBelievedError if the places that were believed are not those of one path."""
+    believed = [number for number, one in enumerate(sightings) if one.probability >= BELIEVED]
+    drawn = np.array([sightings[number].sketch_from_base.translation for number in believed])
+    off = np.hypot(*(found.elastic @ drawn - found.path.places[believed]).T)
+    agreeing = int(np.count_nonzero(off < WITHIN))
+    if agreeing < AGREEING * len(believed):
+        raise NothingBelievedError(
+            f"the places that were believed must agree, only {agreeing} of {len(believed)} keyframes do"
+        )
+
+
 def laid_as_drawn(found: Fit, sketch: SchematicMap) -> Fit:
     """Turn all as the sheet lies, and move the lower left of the strokes near the origin."""
     (a, _), (c, _) = found.elastic.linear
@@ -84,7 +100,6 @@ def find_seen(atlas: Atlas, sightings: Sequence[Sighting], found: Fit) -> list[N
     pieces = Pieces(
         np.vstack([one.starts for one in of_strokes]),
         np.vstack([one.ends for one in of_strokes]),
-        np.zeros(sum(map(len, of_strokes)), dtype=np.intp),
     )
     surfaces, path = Surfaces.of(sightings), found.path
     points = path.from_base(surfaces.points, surfaces.owners)

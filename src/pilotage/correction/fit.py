@@ -7,31 +7,33 @@ thickness of a wall, which is drawn as one stroke and seen from two sides.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import block_diag, coo_matrix, csr_matrix, diags, hstack, vstack
 from scipy.sparse.linalg import splu
+from scipy.spatial import cKDTree
 
 from pilotage.correction.sighting import Sighting
 from pilotage.correction.spline import ElasticMap, Rows, SplineGrid
 from pilotage.correction.trajectory import Path, path_of
-from pilotage.correction.walls import Association, Carried, Pieces, associate
-from pilotage.geometry import Array
+from pilotage.correction.walls import Association, Carried, Pieces, associate, find_posts
+from pilotage.geometry import Array, Polyline
 from pilotage.maps import SchematicMap
 
 SPACING = 1.5
 """[m] of the spline's grid."""
 MOST_NODES = 6_000
 """Nodes of the grid, at most."""
-STAGES = ((300.0, 1.5, 4), (300.0, 1.0, 2), (100.0, 0.5, 2))
+STAGES = ((300.0, 1.5, 6), (300.0, 1.0, 2), (100.0, 0.5, 2))
 """Stiffness of the bending energy, gate of the robust kernel [m] and rounds of each stage."""
 RATHER_RIGID = 0.3
 """Weight of the squared gradient's difference from the similarity: what is not seen keeps its shape."""
-STRAIGHT = 100.0
-"""Weight of the squared bend of drawn straight lines, a row for each joint of pieces."""
 WALL_STD = 0.1
 """[m] of a surface point from its wall."""
+POST_STD = 0.07
+"""[m] of an edge from the post that it is taken for."""
 POINTS_AN_EYE = 8.0
 """Number of independent surface points in a sighting: more of them err together."""
 THICKNESS_STD = 0.01
@@ -42,7 +44,9 @@ LATER = 0.05
 """Weight of the estimates once walls are associated."""
 NEAR, EVERY = 6.0, 6
 """[m] Of the surface points within this distance every sixth goes with the estimate."""
-GATES = (1e9, 20.0, 10.0, 6.0, 4.0, 4.0, 4.0)
+TRIED = 40
+"""Pairs of places of which any two make a first guess of the similarity."""
+GATES = (10.0, 10.0, 6.0, 4.0, 4.0, 4.0)
 """[m] of the robust kernel while the similarity is found."""
 MIN_GATE = 2.0
 """[m] of the robust kernel for estimates afterwards, at least."""
@@ -119,7 +123,12 @@ def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) ->
     rough = np.hstack([segments[:, :2] @ linear.T + translation, segments[:, 2:] @ linear.T + translation])
     grid = SplineGrid.over(rough.reshape(-1, 2), SPACING, MOST_NODES)
     found = Fit(ElasticMap(linear, translation, grid, grid.nodes), path, 0.0)
-    problem = Problem(Pieces.of(rough), surfaces, beliefs, grid)
+    posts = find_posts([Polyline(s.vertices @ linear.T + translation, s.closed) for s in sketch.strokes])
+    edges = Points(
+        np.vstack([one.edges for one in sightings]),
+        np.repeat(np.arange(len(sightings)), [len(one.edges) for one in sightings]),
+    )
+    problem = Problem(Pieces.of(rough), surfaces, beliefs, grid, posts, edges)
     for number, (stiffness, gate, rounds) in enumerate(STAGES):
         for turn in range(rounds):
             by_estimates = number == 0 and turn < rounds - 1  # walls are not associated yet
@@ -130,12 +139,20 @@ def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) ->
 class Problem:
     """The equations, linear around the last solution."""
 
-    def __init__(self, pieces: Pieces, surfaces: Surfaces, beliefs: Beliefs, grid: SplineGrid) -> None:
+    def __init__(  # noqa: PLR0917  # each once
+        self,
+        pieces: Pieces,
+        surfaces: Surfaces,
+        beliefs: Beliefs,
+        grid: SplineGrid,
+        posts: Array,
+        edges: Points,
+    ) -> None:
+        self.posts, self.edges = posts, edges
         self.pieces, self.surfaces, self.beliefs, self.grid = pieces, surfaces, beliefs, grid
-        bending, gradient, straight = grid.bending, grid.gradient, pieces.straightness(grid)
+        bending, gradient = grid.bending, grid.gradient
         self._bending = bending.T @ bending
         self._rigid = RATHER_RIGID * gradient.T @ gradient
-        self._straight = STRAIGHT * straight.T @ straight
         self._rigid_sums = self._rigid @ grid.nodes
 
     def solved(self, last: Fit, stiffness: float, gate: float, *, by_estimates: bool) -> Fit:
@@ -143,7 +160,7 @@ class Problem:
         rows, wanted = zip(*self._equations(last, gate, by_estimates=by_estimates), strict=True)
         matrix, right = vstack(rows).tocsr(), np.concatenate(wanted)
         nodes, knots = len(self.grid.nodes), len(last.path.knots)
-        smooth = stiffness * self._bending + self._rigid + self._straight
+        smooth = stiffness * self._bending + self._rigid
         path_prior = np.full(3 * knots + 1, 1e-3)
         path_prior[:3] = 1e6  # the path begins where it began
         path_prior[-1] = 1.0 / THICKNESS_STD**2
@@ -167,6 +184,8 @@ class Problem:
         equations += self._belief_rows(last, max(4.0 * gate, MIN_GATE), 1.0 if by_estimates else LATER)
         if not by_estimates and len(self.surfaces.points):
             equations.append(self._wall_rows(last, gate))
+        if not by_estimates and len(self.posts) and len(self.edges.points):
+            equations += self._post_rows(last, gate)
         return equations
 
     def _belief_rows(self, last: Fit, gate: float, share: float) -> list[tuple[Rows, Array]]:
@@ -176,17 +195,8 @@ class Problem:
         targets = path.from_base(beliefs.points, beliefs.owners)
         off = np.hypot(*(basis @ last.elastic.coefficients - targets).T)
         weights = beliefs.weights * np.sqrt(share * robust(off, gate))
-        arms = targets - path.places[beliefs.owners]
         weighted = basis.multiply(weights[:, np.newaxis])
-        empty, last_column = csr_matrix(basis.shape), csr_matrix((len(weights), 1))
-        equations = []
-        for axis, arm in ((0, -arms[:, 1]), (1, arms[:, 0])):
-            direction = np.zeros((len(weights), 2))
-            direction[:, axis] = weights
-            knots = pose_rows(path, beliefs.owners, -direction, -weights * arm)
-            maps = [weighted, empty] if axis == 0 else [empty, weighted]
-            equations.append((hstack([*maps, knots, last_column]), weights * targets[:, axis]))
-        return equations
+        return self._point_rows(path, beliefs.owners, targets, weighted, weights)
 
     def _wall_rows(self, last: Fit, gate: float) -> tuple[Rows, Array]:
         """Say that a surface point lies half a thickness before the wall that it shows."""
@@ -214,6 +224,33 @@ class Problem:
         )
         return rows, (direction * points).sum(axis=1)
 
+    def _post_rows(self, last: Fit, gate: float) -> list[tuple[Rows, Array]]:
+        """Say that a seen edge is the post nearest to it."""
+        path, edges = last.path, self.edges
+        basis = self.grid.basis(self.posts)
+        points = path.from_base(edges.points, edges.owners)
+        off, nearest = cKDTree(basis @ last.elastic.coefficients).query(points)
+        chosen = np.flatnonzero(off < 1.5 * gate)
+        owners, points = edges.owners[chosen], points[chosen]
+        weights = np.sqrt(robust(off[chosen], 0.5 * gate)) / POST_STD
+        weighted = basis[nearest[chosen]].multiply(weights[:, np.newaxis])
+        return self._point_rows(path, owners, points, weighted, weights)
+
+    def _point_rows(
+        self, path: Path, owners: NDArray[np.intp], points: Array, weighted: Rows, weights: Array
+    ) -> list[tuple[Rows, Array]]:
+        """Say that points lie where a basis, already weighted, puts them."""
+        arms = points - path.places[owners]
+        empty, last_column = csr_matrix(weighted.shape), csr_matrix((len(weights), 1))
+        equations = []
+        for axis, arm in ((0, -arms[:, 1]), (1, arms[:, 0])):
+            direction = np.zeros((len(weights), 2))
+            direction[:, axis] = weights
+            knots = pose_rows(path, owners, -direction, -weights * arm)
+            maps = [weighted, empty] if axis == 0 else [empty, weighted]
+            equations.append((hstack([*maps, knots, last_column]), weights * points[:, axis]))
+        return equations
+
 
 def pose_rows(path: Path, owners: NDArray[np.intp], moving: Array, turning: Array) -> Rows:
     """Rows on changes of the knots, from those on moves (m, 2) and turns (m,) of the poses (m,)."""
@@ -236,13 +273,29 @@ def robust(off: Array, gate: float) -> Array:
 
 
 def robust_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:
-    """Fit a similarity, linear (2, 2) and translation (2,), to pairs (n, 2), most of which agree."""
-    kernel = np.ones(len(points))
-    linear, translation = np.eye(2), np.zeros(2)
+    """Fit a similarity, linear (2, 2) and translation (2,), to pairs (n, 2), most of which agree.
+
+    It begins with the best of those through two of the pairs, evenly spaced: a localizer that was wrong for a
+    while is outvoted.
+    """
+    tried = np.unique(np.linspace(0, len(points) - 1, TRIED).astype(np.intp))
+    best, most = (np.eye(2), np.zeros(2)), -1.0
+    for pair in combinations(tried.tolist(), 2):
+        chosen = list(pair)
+        guess = weighted_similarity(points[chosen], images[chosen], np.ones(2))
+        agreeing = float(weights**2 @ kernel_of(guess, points, images, GATES[0]))
+        if agreeing > most:
+            best, most = guess, agreeing
     for gate in GATES:
-        linear, translation = weighted_similarity(points, images, kernel * weights**2)
-        kernel = robust(np.hypot(*(points @ linear.T + translation - images).T), gate)
-    return linear, translation
+        kernel = kernel_of(best, points, images, gate)
+        best = weighted_similarity(points, images, kernel * weights**2)
+    return best
+
+
+def kernel_of(similarity: tuple[Array, Array], points: Array, images: Array, gate: float) -> Array:
+    """Weigh pairs (n, 2) by how well a similarity carries one to the other, (n,)."""
+    linear, translation = similarity
+    return robust(np.hypot(*(points @ linear.T + translation - images).T), gate)
 
 
 def weighted_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+import shapely
 
 from pilotage.correction.corrected import Passage, PassageState
 from pilotage.correction.sighting import Sighting
@@ -19,6 +20,8 @@ MIDDLE = 0.25
 """Share of a gateway's width at each side that beams through it are not counted in: jambs are there."""
 FEWEST_THROUGH = 5
 """Beams through a gateway that show that it is open."""
+BESIDE = 0.5
+"""Share of a gateway's width beside it where the robot's way still goes through it: it may be drawn aside."""
 BINS = 8
 """Parts of a gateway's width ..."""
 FILLED = 6
@@ -34,14 +37,16 @@ def find_passages(
     ends = path.from_base(np.vstack([one.ends for one in sightings]), owners)
     lasers = path.from_base(np.array([one.laser for one in sightings]), np.arange(len(sightings)))[owners]
     return tuple(
-        Passage(gateway.gateway_id, segment, state_of(segment, lasers, ends))
+        Passage(gateway.gateway_id, segment, state_of(segment, lasers, ends, path.places))
         for gateway in graph.gateways
         for segment in [elastic @ gateway.segment]
     )
 
 
-def state_of(segment: Array, lasers: Array, ends: Array) -> PassageState:
-    """Judge a gateway (2, 2) by beams from lasers (m, 2) to ends (m, 2), all in metres."""
+def state_of(segment: Array, lasers: Array, ends: Array, way: Array) -> PassageState:
+    """Judge a gateway (2, 2) by beams from lasers (m, 2) to ends (m, 2) and the robot's way (n, 2) [m]."""
+    if is_crossed(segment, way):
+        return PassageState.OPEN
     along = segment[1] - segment[0]
     width = max(float(np.hypot(*along)), 1e-6)
     along = along / width
@@ -58,3 +63,10 @@ def state_of(segment: Array, lasers: Array, ends: Array) -> PassageState:
     on = (np.abs(behind) < ON) & (at >= 0.0) & (at < 1.0)
     bins = np.unique((at[on] * BINS).astype(np.int64))
     return PassageState.CLOSED if len(bins) >= FILLED else PassageState.UNSEEN
+
+
+def is_crossed(segment: Array, way: Array) -> bool:
+    """Tell whether the robot's way (n, 2) leads through a gateway (2, 2), or just beside it."""
+    reach = BESIDE * (segment[1] - segment[0])
+    opening = shapely.LineString([segment[0] - reach, segment[1] + reach])
+    return len(way) > 1 and bool(opening.intersects(shapely.LineString(way)))

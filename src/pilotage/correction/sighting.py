@@ -19,6 +19,10 @@ ENDS = 180
 """Ends of beams of a sighting, evenly spaced, at most."""
 FARTHEST = 15.0
 """[m] Beams that end farther off tell little about where a surface lies."""
+JUMP, JUMP_SHARE = 0.4, 0.1
+"""[m, share of the range] by which the next return is farther off where a surface ends."""
+FARTHEST_EDGE = 8.0
+"""[m] Farther off, beams are too far apart to tell where a surface ends."""
 ROUGH, ROUGH_SHARE = 0.05, 0.02
 """[m, share of its length] by which five neighboring returns may lie off a straight surface."""
 GAP, GAP_SHARE = 0.3, 0.12
@@ -33,6 +37,7 @@ class Sighting:
     travel: float  # [m] along the way, never falling from sighting to sighting
     points: Array  # (n, 2) on straight surfaces, in the base frame [m]
     normals: Array  # (n, 2) unit normals of the surfaces there, towards the laser
+    edges: Array  # (k, 2) where straight surfaces end before something farther off, in the base frame [m]
     ends: Array  # (m, 2) where beams ended, in the base frame [m]
     laser: tuple[float, float]  # where they began, in the base frame [m]
     sketch_from_base: Affine2  # the estimate
@@ -40,7 +45,7 @@ class Sighting:
 
     def __post_init__(self) -> None:
         """Freeze the arrays; reject points without normals and a probability that is none."""
-        for name in ("points", "normals", "ends"):
+        for name in ("points", "normals", "edges", "ends"):
             values = np.asarray(getattr(self, name), dtype=np.float64)
             if values.ndim != 2 or values.shape[1] != 2 or not np.isfinite(values).all():
                 raise ValueError(f"{name} must be finite and have shape (n, 2), got {values.shape}")
@@ -66,6 +71,7 @@ class Sighting:
             travel,
             returns[chosen],
             normals[chosen],
+            returns[find_edges(returns, straight, laser)],
             returns[ends],
             (float(laser[0]), float(laser[1])),
             estimate.sketch_from_base,
@@ -115,6 +121,17 @@ def surface_normals(returns: Array, laser: Array) -> tuple[Array, NDArray[np.boo
         & (gaps < np.maximum(GAP, GAP_SHARE * ranges))
     )
     return normals, straight
+
+
+def find_edges(returns: Array, straight: NDArray[np.bool_], laser: Array) -> NDArray[np.intp]:
+    """Find returns (n, 2) where a straight surface ends and the next return is farther off, as at a post."""
+    ranges = np.hypot(*(returns - laser).T)
+    jump = np.diff(ranges)
+    step = np.maximum(JUMP, JUMP_SHARE * np.minimum(ranges[:-1], ranges[1:]))
+    first, last = np.flatnonzero(jump > step), np.flatnonzero(jump < -step) + 1
+    first, last = first[first >= 2], last[last < len(returns) - 2]
+    found = np.concatenate([first[straight[first - 2]], last[straight[last + 2]]])
+    return np.asarray(found[ranges[found] < FARTHEST_EDGE])
 
 
 def thinned(indices: NDArray[np.intp], count: int) -> NDArray[np.intp]:

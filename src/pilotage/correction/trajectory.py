@@ -13,7 +13,7 @@ from pilotage.geometry import Array, Pose2
 
 KNOT_DISTANCE = 2.0
 """[m] of travel between knots: over less, scan matching is exact."""
-PLACE_DRIFT = (0.003, 0.003)
+PLACE_DRIFT = (0.0015, 0.0015)
 """[m, m/m] Standard deviation of the motion from knot to knot, fixed and in proportion to the way."""
 TURN_DRIFT = (0.001, 0.001)
 """[rad, rad/m] The same of the turn."""

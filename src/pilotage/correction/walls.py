@@ -1,16 +1,18 @@
 """Drawn walls in short pieces, and which of them each surface point shows."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from pilotage import kernels
-from pilotage.correction.spline import ElasticMap, Rows, SplineGrid
-from pilotage.geometry import Array
+from pilotage.correction.spline import ElasticMap
+from pilotage.geometry import Array, Polyline
 
 PIECE = 0.5
 """[m] Length of a piece at most."""
@@ -18,17 +20,18 @@ MISFIT = 0.35
 """Largest |log(predicted / measured)| of a range that shows the predicted wall."""
 PARALLEL = 0.75
 """Least cosine between the normals of a surface and of the wall that it is taken for."""
+TOUCH = 0.15
+"""[m] A line that ends no farther from another touches it."""
 CANDIDATES = 6
 """Pieces with the nearest middles, of which that of a point is the nearest."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Short pieces of drawn walls: where they begin and end, and of which segment they are."""
+    """Short pieces of drawn walls: where they begin and end."""
 
     starts: Array  # (n, 2) roughly metres
     ends: Array  # (n, 2)
-    segments: NDArray[np.intp]  # (n,) numbers of the drawing's segments, rising
 
     @classmethod
     def of(cls, segments: Array) -> Self:
@@ -39,21 +42,11 @@ class Pieces:
         number = np.arange(len(owners)) - np.repeat(np.cumsum(counts) - counts, counts)
         first, along = segments[owners, :2], segments[owners, 2:] - segments[owners, :2]
         step = along / counts[owners, np.newaxis]
-        return cls(first + number[:, np.newaxis] * step, first + (number + 1)[:, np.newaxis] * step, owners)
+        return cls(first + number[:, np.newaxis] * step, first + (number + 1)[:, np.newaxis] * step)
 
     def __len__(self) -> int:
         """Count the pieces."""
         return len(self.starts)
-
-    @cached_property
-    def inner(self) -> NDArray[np.intp]:
-        """The pieces that another of the same segment follows."""
-        return np.flatnonzero(self.segments[:-1] == self.segments[1:])
-
-    def straightness(self, grid: SplineGrid) -> Rows:
-        """Rows that are 0 while straight segments stay straight."""
-        first, middle, last = self.starts[self.inner], self.ends[self.inner], self.ends[self.inner + 1]
-        return (grid.basis(first) - 2.0 * grid.basis(middle) + grid.basis(last)).tocsr()
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +92,23 @@ class Carried:
         grid = kernels.segment_grid.build_grid(np.hstack([self.starts, self.ends]))
         angles = np.arctan2(towards[:, 1], towards[:, 0])
         return np.asarray(kernels.raycast.cast_through(np.ascontiguousarray(lasers), angles, grid))
+
+
+def find_posts(lines: Sequence[Polyline]) -> Array:
+    """Find the ends of lines [roughly metres] that touch no other line: posts of doors, (n, 2)."""
+    tree = shapely.STRtree([shapely.LineString(line.ring) for line in lines])
+    ends = [
+        (number, end)
+        for number, line in enumerate(lines)
+        if not line.closed
+        for end in line.vertices[[0, -1]]
+    ]
+    posts = []
+    for number, end in ends:
+        near = tree.query(shapely.Point(end), predicate="dwithin", distance=TOUCH)
+        if set(near.tolist()) <= {number}:
+            posts.append(end)
+    return np.array(posts).reshape(-1, 2)
 
 
 @dataclass(frozen=True, eq=False)
