@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pilotage.correction.spline import ElasticMap
 from pilotage.correction.walls import Pieces
 from pilotage.geometry import Array, Polyline, frozen_array
-from pilotage.maps import Label, SchematicMap
+from pilotage.maps import Label, SchematicMap, Zones
 
 DETAIL = 0.02
 """[m] by which a line may be off that leaves out a vertex."""
@@ -70,14 +70,15 @@ def carried_sketch(sketch: SchematicMap, elastic: ElasticMap) -> SchematicMap:
         return x, y
 
     return SchematicMap(
-        tuple(carried_line(stroke, elastic) for stroke in sketch.strokes),
+        carried_lines(sketch.strokes, elastic),
         None if sketch.start is None else point(sketch.start),
         None if sketch.goal is None else point(sketch.goal),
         tuple(Label(label.text, point(label.position)) for label in sketch.labels),
         sketch.source,
         contours=sketch.contours,
-        solids=tuple(carried_line(ring, elastic) for ring in sketch.solids),
+        solids=carried_lines(sketch.solids, elastic),
         metres_per_unit=1.0,
+        zones=Zones(*(carried_lines(lines, elastic) for lines in sketch.zones.lines)),
     )
 
 
@@ -86,6 +87,11 @@ def carried_line(line: Polyline, elastic: ElasticMap) -> Polyline:
     pieces = pieces_of(line, elastic)
     vertices = elastic.from_roughly(pieces.starts if line.closed else vertices_of(pieces, 0, len(pieces)))
     return Polyline(simplified(vertices), line.closed)
+
+
+def carried_lines(lines: tuple[Polyline, ...], elastic: ElasticMap) -> tuple[Polyline, ...]:
+    """Carry polylines."""
+    return tuple(carried_line(line, elastic) for line in lines)
 
 
 def carried_polygon(polygon: shapely.Polygon, elastic: ElasticMap) -> shapely.Polygon:

@@ -72,7 +72,7 @@ class SchematicMap:
 
     def mirrored(self) -> "SchematicMap":
         """Return the mirror image, left for right; places are told in the axes of the same file."""
-        (left, _, right, _), zones = self.bounds, self.zones
+        left, _, right, _ = self.bounds
         mirror = Homography(((-1.0, 0.0, left + right), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         photo = (
             Homography.from_matrix(np.eye(3)) if self.photo_from_sketch is None else self.photo_from_sketch
@@ -88,9 +88,7 @@ class SchematicMap:
             self,
             strokes=tuple(carried(line).reversed() for line in self.strokes),  # free space stays on the left
             solids=tuple(carried(line).reversed() for line in self.solids),
-            zones=Zones(
-                *(tuple(map(carried, lines)) for lines in (zones.keep_out, zones.slow, zones.one_way))
-            ),
+            zones=Zones(*(tuple(map(carried, lines)) for lines in self.zones.lines)),
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),

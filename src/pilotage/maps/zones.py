@@ -22,9 +22,14 @@ class Zones:
     slow: tuple[Polyline, ...] = ()  # at half speed
     one_way: tuple[Polyline, ...] = ()  # an arrow across a gateway: the only way to pass it
 
+    @property
+    def lines(self) -> tuple[tuple[Polyline, ...], ...]:
+        """The three kinds, in the order of the fields."""
+        return self.keep_out, self.slow, self.one_way
+
     def __bool__(self) -> bool:
         """Whether there are any."""
-        return bool(self.keep_out or self.slow or self.one_way)
+        return any(self.lines)
 
     @cached_property
     def keep_out_area(self) -> shapely.Geometry:
