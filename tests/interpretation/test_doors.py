@@ -46,6 +46,19 @@ def test_an_arc_far_from_any_wall_is_no_door():
     assert Role.DOOR not in roles((OUTSIDE, WALL, lamp))
 
 
+def test_many_small_arcs_of_a_plant_do_not_make_doors_small():
+    door = (WALL, stroke((50, 30), (62, 30)), arc((50, 30), 12, 0, 90))
+    leaves = [
+        mark
+        for k in range(15)
+        for x, y in [(60.0 + 6.0 * (k % 5), 50.0 + 6.0 * (k // 5))]
+        for mark in (stroke((x, y), (x + 2, y)), arc((x, y), 2, 0, 30))
+    ]
+
+    assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, *door, *leaves))[:4]
+    assert Role.DOOR not in roles((OUTSIDE, *door, *leaves))[4:]
+
+
 def test_walls_of_two_lines_have_a_thickness_and_doors_cut_both():
     faces = (OUTSIDE, box(3, 3, 48.5, 77, pen=PEN), box(51.5, 3, 97, 77, pen=PEN))
     door = (stroke((51.5, 30), (63.5, 30)), arc((51.5, 30), 12, 0, 90))
@@ -74,3 +87,10 @@ def test_a_window_in_an_outer_wall_closes():
     assert len(graph_of(whole).cells) == len(graph_of((*painted, *glass)).cells)
     solid = interpret(Sheet((*painted, *glass))).sketch.solids
     assert any(line.vertices[:, 0].min() < 20 and line.vertices[:, 0].max() > 32 for line in solid)
+
+
+def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():
+    faces = (box(0, 0, 100, 80, pen=PEN), box(3, 3, 48.5, 77, pen=PEN), box(51.5, 3, 97, 77, pen=PEN))
+    road = stroke((900, 900), (1000, 1000))
+
+    assert interpret(Sheet((*faces, road))).sketch.solids

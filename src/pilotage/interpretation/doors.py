@@ -108,8 +108,7 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         return []
     segments = segments_of(seen)
     judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
-    leaved = [arc.radius for arc, _, leaves, _ in judged if leaves.any()]
-    usual = float(np.median(leaved or [arc.radius for arc, *_ in judged]))
+    usual = usual_width([arc for arc, _, leaves, _ in judged if leaves.any()] or [arc for arc, *_ in judged])
     doors = []
     for arc, marks, leaves, walls in judged:
         like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
@@ -118,6 +117,16 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
         doors.append(Door(arc.center, arc.ends[closed], arc, marks))
     return doors
+
+
+def usual_width(arcs: Sequence[Arc]) -> float:
+    """Find the usual width of doors: half of the length of all arcs belongs to narrower ones.
+
+    A plant or a chair may have more arcs than there are doors, but they are short.
+    """
+    ordered = sorted(arcs, key=lambda arc: arc.radius)
+    length = np.cumsum([arc.sweep * arc.radius for arc in ordered])
+    return ordered[int(np.searchsorted(length, length[-1] / 2.0))].radius
 
 
 def arcs_of(mark: Mark) -> list[Arc]:
