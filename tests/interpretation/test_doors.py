@@ -1,5 +1,7 @@
 """Doors, shut leaves and windows in walls of one line, of two and of paint."""
 
+import math
+
 import pytest
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
@@ -22,6 +24,28 @@ def test_a_leaf_may_stand_ajar(opened):
 
     assert are_joined((OUTSIDE, WALL, leaf, arced))
     assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, WALL, leaf, arced))
+
+
+@pytest.mark.parametrize("opened", [15, 40, 70, -15, -60])
+def test_a_leaf_without_an_arc_is_a_door_if_it_stands_ajar(opened):
+    turn = math.radians(90 - opened)
+    leaf = stroke((50, 30), (50 + 12 * math.cos(turn), 30 + 12 * math.sin(turn)))
+
+    assert are_joined((OUTSIDE, WALL, leaf))
+    assert [Role.WALL, Role.WALL, Role.DOOR] == roles((OUTSIDE, WALL, leaf))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        [((50, 30), (62, 30))],  # a short wall
+        [((50, 30), (58, 39)), ((58, 39), (66, 39))],  # it goes on: a corner cupboard
+        [((50, 30), (56, 36)), ((50, 30), (44, 36))],  # an arrow
+        [((60, 30), (66, 36))],  # far from any wall
+    ],
+)
+def test_what_is_upright_goes_on_or_is_an_arrow_is_no_leaf(lines):
+    assert Role.DOOR not in roles((OUTSIDE, WALL, *(stroke(*points) for points in lines)))
 
 
 def test_a_leaf_may_have_a_thickness():

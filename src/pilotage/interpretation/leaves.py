@@ -1,0 +1,95 @@
+"""Find leaves of doors that are drawn ajar without an arc, or with one that is too short to tell."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from pilotage.geometry import Array
+from pilotage.interpretation.arcs import Arc
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.segments import Segments
+from pilotage.interpretation.sheet import Sheet
+
+AJAR = np.sin(np.radians([8.0, 78.0]))
+"""A leaf stands at such an angle to its wall; what stands upright on a wall is a wall."""
+
+AT = 0.1
+"""A leaf begins as near to its wall as this share of its length."""
+
+SHORT = 0.6
+"""What is shorter than this share of a leaf may touch it: a knob, an arc, a tick."""
+
+SIDES = 2
+"""More parallel lines of one length than this are hatching or stairs."""
+
+CHORDS = 8
+"""Of the arc that is not drawn."""
+
+
+def find_leaves(
+    sheet: Sheet, seen: Sequence[Seen], segments: Segments, radii: tuple[float, float]
+) -> list[Arc]:
+    """Find straight lines from a wall into a room, ajar and free at their end: the arcs that they sweep.
+
+    `radii` are the least and largest length of a leaf. Where two begin at one point it is an arrow, no door.
+    """
+    found = []
+    for mark in seen:
+        drawn = sheet.marks[mark.number]
+        for outline in drawn.outlines if drawn.pen is not None and not mark.line.is_empty else ():
+            ends = outline.vertices[[0, -1]]
+            length = float(np.hypot(*(ends[1] - ends[0])))
+            if not outline.closed and radii[0] <= length <= radii[1] and is_straight(outline.vertices):
+                found += [
+                    arc
+                    for hinge, tip in (ends, ends[::-1])
+                    if (arc := swept(hinge, tip, segments)) is not None
+                ]
+    centers = np.array([arc.center for arc in found]).reshape(-1, 2)
+    gaps = np.hypot(*(centers[:, None] - centers[None]).transpose(2, 0, 1))
+    alone = (gaps < AT * np.array([arc.radius for arc in found])).sum(axis=0) == 1 if found else []
+    return [arc for arc, is_alone in zip(found, alone, strict=True) if is_alone]
+
+
+def is_straight(points: Array) -> bool:
+    """Tell whether all vertices (n, 2) lie on a line from the first to the last, up to its thickness."""
+    along = points[-1] - points[0]
+    spokes = points - points[0]
+    strays = np.abs(spokes[:, 0] * along[1] - spokes[:, 1] * along[0])
+    return bool(strays.max() <= AT / 2.0 * (along @ along))
+
+
+def swept(hinge: Array, tip: Array, segments: Segments) -> Arc | None:
+    """Return the arc from a leaf to its wall; None if it is no leaf."""
+    leaf = tip - hinge
+    length = float(np.hypot(*leaf))
+    outer = shapely.LineString([hinge + leaf / 2.0, tip])
+    near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * length)
+    if (segments.lengths[near] >= SHORT * length).sum() > 1 or is_hatching(hinge, tip, segments):
+        return None  # one is the leaf itself
+    near = segments.tree.query(shapely.Point(hinge), predicate="dwithin", distance=AT * length)
+    near = near[segments.lengths[near] >= SHORT * length]
+    for wall in near[np.argsort(-segments.lengths[near])]:
+        along = (segments.ends[wall, 1] - segments.ends[wall, 0]) / segments.lengths[wall]
+        along = along if along @ leaf > 0.0 else -along
+        turn = (along[0] * leaf[1] - along[1] * leaf[0]) / length
+        if AJAR[0] <= abs(turn) <= AJAR[1]:
+            angle = np.arctan2(turn, along @ leaf / length)
+            first = np.arctan2(leaf[1], leaf[0])
+            angles = np.linspace(first, first - angle, CHORDS + 1)
+            points = hinge + length * np.column_stack([np.cos(angles), np.sin(angles)])
+            return Arc(hinge, length, points[[0, -1]], points, float(abs(angle)))
+    return None
+
+
+def is_hatching(hinge: Array, tip: Array, segments: Segments) -> bool:
+    """Tell whether lines like this one lie beside it; a leaf has two sides at most."""
+    along = tip - hinge
+    length = float(np.hypot(*along))
+    near = segments.tree.query(shapely.Point((hinge + tip) / 2.0), predicate="dwithin", distance=length)
+    steps = segments.ends[near, 1] - segments.ends[near, 0]
+    lengths = segments.lengths[near]
+    turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0]) / length
+    alike = (lengths >= SHORT * length) & (lengths <= length / SHORT) & (turn <= AT * lengths)
+    return int(alike.sum()) > SIDES
