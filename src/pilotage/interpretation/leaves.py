@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.arcs import Arc
@@ -34,22 +35,34 @@ def find_leaves(
 
     `radii` are the least and largest length of a leaf. Where two begin at one point it is an arrow, no door.
     """
-    found = []
-    for mark in seen:
-        drawn = sheet.marks[mark.number]
-        for outline in drawn.outlines if drawn.pen is not None and not mark.line.is_empty else ():
-            ends = outline.vertices[[0, -1]]
-            length = float(np.hypot(*(ends[1] - ends[0])))
-            if not outline.closed and radii[0] <= length <= radii[1] and is_straight(outline.vertices):
-                found += [
-                    arc
-                    for hinge, tip in (ends, ends[::-1])
-                    if (arc := swept(hinge, tip, segments)) is not None
-                ]
-    centers = np.array([arc.center for arc in found]).reshape(-1, 2)
-    gaps = np.hypot(*(centers[:, None] - centers[None]).transpose(2, 0, 1))
-    alone = (gaps < AT * np.array([arc.radius for arc in found])).sum(axis=0) == 1 if found else []
-    return [arc for arc, is_alone in zip(found, alone, strict=True) if is_alone]
+    lines = [
+        outline.vertices[[0, -1]]
+        for mark in seen
+        if sheet.marks[mark.number].pen is not None and not mark.line.is_empty
+        for outline in sheet.marks[mark.number].outlines
+        if not outline.closed and is_straight(outline.vertices)
+    ]
+    ends = np.array(lines + [line[::-1] for line in lines]).reshape(-1, 2, 2)  # from hinge to tip
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    ends = ends[(lengths >= radii[0]) & (lengths <= radii[1])]
+    ends = ends[are_free(ends, segments)]
+    arcs = [swept(hinge, tip, segments) for hinge, tip in ends if not is_hatching(hinge, tip, segments)]
+    found = [arc for arc in arcs if arc is not None]
+    hinges = shapely.points([arc.center for arc in found]) if found else np.empty(0, dtype=object)
+    reach = np.array([AT * arc.radius for arc in found])
+    near, _ = shapely.STRtree(hinges).query(hinges, predicate="dwithin", distance=reach)
+    return [
+        arc for arc, count in zip(found, np.bincount(near, minlength=len(found)), strict=True) if count == 1
+    ]
+
+
+def are_free(ends: Array, segments: Segments) -> NDArray[np.bool_]:
+    """Tell which lines (n, 2, 2), from hinge to tip, nothing long comes near to in their outer half."""
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    outer = shapely.linestrings(np.stack([ends.mean(axis=1), ends[:, 1]], axis=1))
+    line, near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * lengths)
+    long = segments.lengths[near] >= SHORT * lengths[line]
+    return np.asarray(np.bincount(line[long], minlength=len(ends)) <= 1)
 
 
 def is_straight(points: Array) -> bool:
@@ -64,10 +77,6 @@ def swept(hinge: Array, tip: Array, segments: Segments) -> Arc | None:
     """Return the arc from a leaf to its wall; None if it is no leaf."""
     leaf = tip - hinge
     length = float(np.hypot(*leaf))
-    outer = shapely.LineString([hinge + leaf / 2.0, tip])
-    near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * length)
-    if (segments.lengths[near] >= SHORT * length).sum() > 1 or is_hatching(hinge, tip, segments):
-        return None  # one is the leaf itself
     near = segments.tree.query(shapely.Point(hinge), predicate="dwithin", distance=AT * length)
     near = near[segments.lengths[near] >= SHORT * length]
     for wall in near[np.argsort(-segments.lengths[near])]:
