@@ -1,5 +1,7 @@
 """Doors, shut leaves and windows in walls of one line, of two and of paint."""
 
+import math
+
 import pytest
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
@@ -24,6 +26,28 @@ def test_a_leaf_may_stand_ajar(opened):
     assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, WALL, leaf, arced))
 
 
+@pytest.mark.parametrize("opened", [15, 40, 70, -15, -60])
+def test_a_leaf_without_an_arc_is_a_door_if_it_stands_ajar(opened):
+    turn = math.radians(90 - opened)
+    leaf = stroke((50, 30), (50 + 12 * math.cos(turn), 30 + 12 * math.sin(turn)))
+
+    assert are_joined((OUTSIDE, WALL, leaf))
+    assert [Role.WALL, Role.WALL, Role.DOOR] == roles((OUTSIDE, WALL, leaf))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        [((50, 30), (62, 30))],  # a short wall
+        [((50, 30), (58, 39)), ((58, 39), (66, 39))],  # it goes on: a corner cupboard
+        [((50, 30), (56, 36)), ((50, 30), (44, 36))],  # an arrow
+        [((60, 30), (66, 36))],  # far from any wall
+    ],
+)
+def test_what_is_upright_goes_on_or_is_an_arrow_is_no_leaf(lines):
+    assert Role.DOOR not in roles((OUTSIDE, WALL, *(stroke(*points) for points in lines)))
+
+
 def test_a_leaf_may_have_a_thickness():
     leaf = box(50, 29.5, 62, 30.5, pen=PEN)
 
@@ -44,6 +68,19 @@ def test_an_arc_far_from_any_wall_is_no_door():
     lamp = arc((20, 20), 8, 0, 90)
 
     assert Role.DOOR not in roles((OUTSIDE, WALL, lamp))
+
+
+def test_many_small_arcs_of_a_plant_do_not_make_doors_small():
+    door = (WALL, stroke((50, 30), (62, 30)), arc((50, 30), 12, 0, 90))
+    leaves = [
+        mark
+        for k in range(15)
+        for x, y in [(60.0 + 6.0 * (k % 5), 50.0 + 6.0 * (k // 5))]
+        for mark in (stroke((x, y), (x + 2, y)), arc((x, y), 2, 0, 30))
+    ]
+
+    assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, *door, *leaves))[:4]
+    assert Role.DOOR not in roles((OUTSIDE, *door, *leaves))[4:]
 
 
 def test_walls_of_two_lines_have_a_thickness_and_doors_cut_both():
@@ -74,3 +111,10 @@ def test_a_window_in_an_outer_wall_closes():
     assert len(graph_of(whole).cells) == len(graph_of((*painted, *glass)).cells)
     solid = interpret(Sheet((*painted, *glass))).sketch.solids
     assert any(line.vertices[:, 0].min() < 20 and line.vertices[:, 0].max() > 32 for line in solid)
+
+
+def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():
+    faces = (box(0, 0, 100, 80, pen=PEN), box(3, 3, 48.5, 77, pen=PEN), box(51.5, 3, 97, 77, pen=PEN))
+    road = stroke((900, 900), (1000, 1000))
+
+    assert interpret(Sheet((*faces, road))).sketch.solids

@@ -59,6 +59,16 @@ def test_rows_of_small_round_shapes_are_letters_and_one_alone_is_not():
     assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, *word)).cells)
 
 
+def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
+    eyes = [
+        Mark((*letter(x).outlines, *box(x - 0.4, 39.6, x + 0.4, 40.4).outlines), fill=BLACK)
+        for x in (20.0, 22.5, 25.0)
+    ]
+    dotted = Mark((*box(26.8, 39, 27.2, 40.5).outlines, *box(26.8, 40.8, 27.2, 41.2).outlines), fill=BLACK)
+
+    assert [Role.LABEL] * 4 == [meaning.role for meaning in meanings((*WITH_GAP, *eyes, dotted))[3:]]
+
+
 @pytest.mark.parametrize(
     ("name", "role"),
     [

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, Arc, find_arcs
+from pilotage.interpretation.leaves import find_leaves
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Mark, Sheet
 
 RADII = (0.004, 0.12)
@@ -67,35 +69,6 @@ class Door:
         return shapely.buffer(shapely.make_valid(sector), SLACK * self.width, join_style="mitre")
 
 
-@dataclass(frozen=True, eq=False)
-class Segments:
-    """All straight lines that are seen, also those around areas."""
-
-    ends: Array  # (n, 2, 2)
-
-    @cached_property
-    def tree(self) -> shapely.STRtree:
-        """Find segments by place."""
-        return shapely.STRtree(shapely.linestrings(self.ends))
-
-    @cached_property
-    def lengths(self) -> Array:
-        """[drawing units], (n,)."""
-        return np.asarray(np.hypot(*(self.ends[:, 1] - self.ends[:, 0]).T))
-
-
-def segments_of(seen: Sequence[Seen]) -> Segments:
-    """Take all lines and borders of areas apart."""
-    ends = [np.empty((0, 2, 2))]
-    for mark in seen:
-        border = mark.line if mark.area.is_empty else shapely.union(mark.line, shapely.boundary(mark.area))
-        for part in parts_of(border):
-            points = shapely.get_coordinates(part)
-            if len(points) > 1:
-                ends.append(np.stack([points[:-1], points[1:]], axis=1))
-    return Segments(np.concatenate(ends))
-
-
 def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door]:
     """Find the doors that are drawn with an arc.
 
@@ -103,13 +76,17 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     where no leaf is drawn at all, if a wall ends at its hinge and its latch.
     """
     arcs = [(arc, place) for place, mark in enumerate(seen) for arc in arcs_of(sheet.marks[mark.number])]
-    arcs = [(arc, place) for arc, place in arcs if RADII[0] * diagonal <= arc.radius <= RADII[1] * diagonal]
-    if not arcs:
-        return []
+    radii = (RADII[0] * diagonal, RADII[1] * diagonal)
+    arcs = [(arc, place) for arc, place in arcs if radii[0] <= arc.radius <= radii[1]]
     segments = segments_of(seen)
     judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
-    leaved = [arc.radius for arc, _, leaves, _ in judged if leaves.any()]
-    usual = float(np.median(leaved or [arc.radius for arc, *_ in judged]))
+    ajar = [(arc, judge(arc, segments)[1]) for arc in find_leaves(sheet, seen, segments, radii)]
+    ajar = [(arc, walls) for arc, walls in ajar if walls[1] == 2.0]
+    leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
+    candidates = leaved or [arc for arc, *_ in ajar] or [arc for arc, *_ in judged]
+    if not candidates:
+        return []
+    usual = usual_width(candidates)
     doors = []
     for arc, marks, leaves, walls in judged:
         like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
@@ -117,7 +94,22 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
             continue
         closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
         doors.append(Door(arc.center, arc.ends[closed], arc, marks))
+    for arc, _ in ajar:
+        leaf = shapely.LineString([arc.center, arc.ends[0]])
+        like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
+        if like_others and not any(door.swing.contains(leaf) for door in doors):
+            doors.append(Door(arc.center, arc.ends[1], arc, ()))
     return doors
+
+
+def usual_width(arcs: Sequence[Arc]) -> float:
+    """Find the usual width of doors: half of the length of all arcs belongs to narrower ones.
+
+    A plant or a chair may have more arcs than there are doors, but they are short.
+    """
+    ordered = sorted(arcs, key=lambda arc: arc.radius)
+    length = np.cumsum([arc.sweep * arc.radius for arc in ordered])
+    return ordered[int(np.searchsorted(length, length[-1] / 2.0))].radius
 
 
 def arcs_of(mark: Mark) -> list[Arc]:

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 import rustworkx
 import shapely
+from numpy.typing import NDArray
 
+from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Mark
 
 TALLEST = 0.03
@@ -40,7 +42,7 @@ def find_glyphs(marks: Sequence[Mark], diagonal: float) -> set[int]:
             owners.append(place)
     if not boxes:
         return set()
-    bounds, vertices, holders = np.array(boxes), np.array(corners), np.array(owners)
+    bounds, vertices, holders = without_parts(np.array(boxes), np.array(corners), np.array(owners))
     sizes = (bounds[:, 2:] - bounds[:, :2]).max(axis=1)
     small = sizes <= TALLEST * diagonal
     words = rustworkx.PyGraph()
@@ -58,4 +60,23 @@ def find_glyphs(marks: Sequence[Mark], diagonal: float) -> set[int]:
         members = sorted(group)
         if len(members) >= WORD and np.mean(vertices[members] > CURVED) >= SOME:
             letters[members] = True
-    return {place for place in set(owners) if letters[holders == place].all()}
+    return set(holders.tolist()) - set(holders[~letters].tolist())
+
+
+def without_parts(
+    bounds: Array, corners: NDArray[np.int64], owners: NDArray[np.int64]
+) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+    """Leave out the eye of an O and the dot of an i: count their corners with the letter that they belong to.
+
+    Takes and returns the boxes (n, 4) of outlines, how many corners they have, and the places of their marks.
+    """
+    shapes, sizes = shapely.box(*bounds.T), (bounds[:, 2:] - bounds[:, :2]).max(axis=1)
+    whole, part = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=APART * sizes)
+    is_eye = shapely.contains(shapes[whole], shapes[part]) & (bounds[whole] != bounds[part]).any(axis=1)
+    is_dot = sizes[whole] > LIKE * sizes[part]
+    belongs = (owners[whole] == owners[part]) & (is_eye | is_dot)
+    counts = corners.copy()
+    np.add.at(counts, whole[belongs], corners[part[belongs]])
+    kept = np.ones(len(bounds), dtype=bool)
+    kept[part[belongs]] = False
+    return bounds[kept], counts[kept], owners[kept]

@@ -25,8 +25,11 @@ CONTRAST = 0.25
 DOOR_SHARE = 0.6
 """No wall is thicker than this share of a door's width."""
 
-PAIR = (0.0025, 0.03)
+PAIR = (0.001, 0.03)
 """Lines so far apart may be a wall's faces where no door is drawn, as shares of the drawing's diagonal."""
+
+OUTER = 2.5
+"""Outer walls are up to so many times as thick as most walls."""
 
 PAIRED = 0.5
 """They are if so much of all that is straight has a partner at one distance, as a share of its length."""
@@ -42,6 +45,12 @@ HAIR = 0.02
 
 CRUMB = 2.5
 """Free-standing solids that are smaller than this many thicknesses are letters, handles and the like."""
+
+SCRIBBLE = 0.125
+"""Of pieces that are shorter than this share of a wall's thickness, one for each such square is enough."""
+
+COARSE = 0.05
+"""Lines are rounded to this share of a gap to see what they enclose."""
 
 ENCLOSING = 0.2
 """Solids are the walls of a plan if they enclose this share of what all lines enclose."""
@@ -114,25 +123,35 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
     pairs &= apart <= PAIR[1] * diagonal
     if not pairs.any():
         return None
-    bins = np.geomspace(*PAIR, 13)
+    bins = np.geomspace(*PAIR, 18)
     shares = np.histogram(apart[pairs] / diagonal, bins, weights=common[pairs])[0] / lengths.sum()
     shares = shares + np.append(shares[1:], 0.0)  # a wall may fall between two bins
     if shares.max() < PAIRED:
         return None
-    thickest = int(np.flatnonzero(shares >= SECOND * shares.max())[-1])  # outer walls are thicker
-    return float(1.15 * bins[min(thickest + 2, 12)] * diagonal)
+    many = shares >= SECOND * shares.max()
+    many[bins[:-1] > OUTER * bins[np.argmax(shares)]] = False  # stairs and rooms are parallel, too
+    thickest = int(np.flatnonzero(many)[-1])
+    return float(1.15 * bins[min(thickest + 2, 17)] * diagonal)
 
 
 def filled_between(lines: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
     """Fill what lies between lines and solids no farther apart than a wall is thick, by closing."""
     hair = HAIR * thickness
-    pieces = shapely.linestrings(straight(lines))
+    pieces = shapely.linestrings(without_scribble(straight(lines), SCRIBBLE * thickness))
     bars = shapely.buffer(pieces, thickness / 2.0, cap_style="square")
     grown = shapely.buffer(solid, thickness / 2.0, join_style="mitre")
     both = shapely.union_all([*bars, grown])
     closed = shapely.buffer(both, hair - thickness / 2.0, join_style="mitre")
     opened = shapely.buffer(shapely.buffer(closed, -2.0 * hair, join_style="mitre"), hair, join_style="mitre")
     return shapely.simplify(shapely.union(opened, solid), hair)
+
+
+def without_scribble(ends: Array, step: float) -> Array:
+    """Keep one of all pieces (n, 2, 2) that are shorter than a step and have their middle in one square."""
+    short = np.hypot(*(ends[:, 1] - ends[:, 0]).T) < step
+    squares = np.floor(ends[short].mean(axis=1) / step)
+    _, first = np.unique(squares, axis=0, return_index=True)
+    return np.concatenate([ends[~short], ends[short][np.sort(first)]])
 
 
 def without_crumbs(solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
@@ -148,9 +167,13 @@ def extent(shape: shapely.Geometry) -> float:
     return float(np.hypot(right - left, top - bottom))
 
 
-def enclosed(shape: shapely.Geometry, gap: float) -> float:
-    """Measure the area that a shape encloses once gaps are closed."""
-    pieces = shapely.get_parts(shapely.get_parts(shape))  # one by one: all at once takes 20 times as long
+def enclosed(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> float:
+    """Measure the area that solids and lines enclose once gaps are closed."""
+    ends = np.round(straight(lines) / (COARSE * gap))
+    ends = np.unique(np.sort(ends.view(complex).reshape(-1, 2)), axis=0)  # hatching: many become one
+    ends = ends[ends[:, 0] != ends[:, 1]] * COARSE * gap
+    bars = shapely.linestrings(np.stack([ends.real, ends.imag], axis=-1))
+    pieces = np.concatenate([parts_of(solid), bars])  # one by one: all at once takes 20 times as long
     grown = shapely.union_all(shapely.buffer(pieces, gap / 2.0, quad_segs=2))
     rings: NDArray[np.object_] = np.array(
         [
@@ -167,5 +190,5 @@ def enclosed(shape: shapely.Geometry, gap: float) -> float:
 
 def are_walls(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> bool:
     """Tell whether solids are the walls of a plan: they enclose its rooms."""
-    inside = enclosed(solid, gap)
-    return inside > 0.0 and inside >= ENCLOSING * enclosed(shapely.union(solid, lines), gap)
+    inside = enclosed(solid, NOTHING, gap)
+    return inside > 0.0 and inside >= ENCLOSING * enclosed(solid, lines, gap)

@@ -30,6 +30,9 @@ GAP = 1.3
 USUAL_GAP, WIDE_GAP = 0.04, 0.08
 """The same where no door is drawn, as shares of the drawing's diagonal: of painted walls, and of lines."""
 
+HALVED = 3
+"""So many times these are halved at most."""
+
 USUAL_DOOR = 0.03
 """Width of a door where none is drawn, as a share of the drawing's diagonal."""
 
@@ -89,8 +92,14 @@ class Drawn:
         return float(np.median([door.width for door in self.doors])) if self.doors else None
 
     def gap(self, usual: float) -> float:
-        """Width of the openings to close: by the doors, else a usual share of the diagonal."""
-        return usual * self.diagonal if self.door_width is None else GAP * self.door_width
+        """Width of the openings to close: by the doors, else a usual share of the diagonal.
+
+        A building may be small on a large sheet: the share is halved until anything is enclosed.
+        """
+        if self.door_width is not None:
+            return GAP * self.door_width
+        gaps = [usual * self.diagonal / 2.0**halved for halved in range(HALVED + 1)]
+        return next((gap for gap in gaps[:-1] if enclosed(self.solid, self.lines, gap) > 0.0), gaps[-1])
 
 
 def find_walls(
@@ -156,8 +165,8 @@ def black_lines(drawn: Drawn) -> Walls | None:
     if drawn.main.is_empty or drawn.marginal.is_empty:
         return None
     gap = drawn.gap(WIDE_GAP)
-    everything = enclosed(drawn.lines, gap)
-    if everything == 0.0 or enclosed(drawn.main, gap) < NEARLY_ALL * everything:
+    everything = enclosed(NOTHING, drawn.lines, gap)
+    if everything == 0.0 or enclosed(NOTHING, drawn.main, gap) < NEARLY_ALL * everything:
         return None
     edge = EDGE * drawn.diagonal
     body = shapely.union_all(shapely.buffer(parts_of(drawn.main), edge))  # all at once is far slower

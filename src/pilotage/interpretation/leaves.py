@@ -1,0 +1,104 @@
+"""Find leaves of doors that are drawn ajar without an arc, or with one that is too short to tell."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from pilotage.geometry import Array
+from pilotage.interpretation.arcs import Arc
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.segments import Segments
+from pilotage.interpretation.sheet import Sheet
+
+AJAR = np.sin(np.radians([8.0, 78.0]))
+"""A leaf stands at such an angle to its wall; what stands upright on a wall is a wall."""
+
+AT = 0.1
+"""A leaf begins as near to its wall as this share of its length."""
+
+SHORT = 0.6
+"""What is shorter than this share of a leaf may touch it: a knob, an arc, a tick."""
+
+SIDES = 2
+"""More parallel lines of one length than this are hatching or stairs."""
+
+CHORDS = 8
+"""Of the arc that is not drawn."""
+
+
+def find_leaves(
+    sheet: Sheet, seen: Sequence[Seen], segments: Segments, radii: tuple[float, float]
+) -> list[Arc]:
+    """Find straight lines from a wall into a room, ajar and free at their end: the arcs that they sweep.
+
+    `radii` are the least and largest length of a leaf. Where two begin at one point it is an arrow, no door.
+    """
+    lines = [
+        outline.vertices[[0, -1]]
+        for mark in seen
+        if sheet.marks[mark.number].pen is not None and not mark.line.is_empty
+        for outline in sheet.marks[mark.number].outlines
+        if not outline.closed and is_straight(outline.vertices)
+    ]
+    ends = np.array(lines + [line[::-1] for line in lines]).reshape(-1, 2, 2)  # from hinge to tip
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    ends = ends[(lengths >= radii[0]) & (lengths <= radii[1])]
+    ends = ends[are_free(ends, segments)]
+    arcs = [swept(hinge, tip, segments) for hinge, tip in ends if not is_hatching(hinge, tip, segments)]
+    found = [arc for arc in arcs if arc is not None]
+    hinges = shapely.points([arc.center for arc in found]) if found else np.empty(0, dtype=object)
+    reach = np.array([AT * arc.radius for arc in found])
+    near, _ = shapely.STRtree(hinges).query(hinges, predicate="dwithin", distance=reach)
+    return [
+        arc for arc, count in zip(found, np.bincount(near, minlength=len(found)), strict=True) if count == 1
+    ]
+
+
+def are_free(ends: Array, segments: Segments) -> NDArray[np.bool_]:
+    """Tell which lines (n, 2, 2), from hinge to tip, nothing long comes near to in their outer half."""
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    outer = shapely.linestrings(np.stack([ends.mean(axis=1), ends[:, 1]], axis=1))
+    line, near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * lengths)
+    long = segments.lengths[near] >= SHORT * lengths[line]
+    return np.asarray(np.bincount(line[long], minlength=len(ends)) <= 1)
+
+
+def is_straight(points: Array) -> bool:
+    """Tell whether all vertices (n, 2) lie on a line from the first to the last, up to its thickness."""
+    along = points[-1] - points[0]
+    spokes = points - points[0]
+    strays = np.abs(spokes[:, 0] * along[1] - spokes[:, 1] * along[0])
+    return bool(strays.max() <= AT / 2.0 * (along @ along))
+
+
+def swept(hinge: Array, tip: Array, segments: Segments) -> Arc | None:
+    """Return the arc from a leaf to its wall; None if it is no leaf."""
+    leaf = tip - hinge
+    length = float(np.hypot(*leaf))
+    near = segments.tree.query(shapely.Point(hinge), predicate="dwithin", distance=AT * length)
+    near = near[segments.lengths[near] >= SHORT * length]
+    for wall in near[np.argsort(-segments.lengths[near])]:
+        along = (segments.ends[wall, 1] - segments.ends[wall, 0]) / segments.lengths[wall]
+        along = along if along @ leaf > 0.0 else -along
+        turn = (along[0] * leaf[1] - along[1] * leaf[0]) / length
+        if AJAR[0] <= abs(turn) <= AJAR[1]:
+            angle = np.arctan2(turn, along @ leaf / length)
+            first = np.arctan2(leaf[1], leaf[0])
+            angles = np.linspace(first, first - angle, CHORDS + 1)
+            points = hinge + length * np.column_stack([np.cos(angles), np.sin(angles)])
+            return Arc(hinge, length, points[[0, -1]], points, float(abs(angle)))
+    return None
+
+
+def is_hatching(hinge: Array, tip: Array, segments: Segments) -> bool:
+    """Tell whether lines like this one lie beside it; a leaf has two sides at most."""
+    along = tip - hinge
+    length = float(np.hypot(*along))
+    near = segments.tree.query(shapely.Point((hinge + tip) / 2.0), predicate="dwithin", distance=length)
+    steps = segments.ends[near, 1] - segments.ends[near, 0]
+    lengths = segments.lengths[near]
+    turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0]) / length
+    alike = (lengths >= SHORT * length) & (lengths <= length / SHORT) & (turn <= AT * lengths)
+    return int(alike.sum()) > SIDES
