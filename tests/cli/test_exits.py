@@ -126,8 +126,10 @@ def interrupted(number, *words):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_localizing_that_is_interrupted_keeps_what_it_had(tmp_path, number):
-    code, err = interrupted(number, *SCANS, "-o", tmp_path / "out.jsonl")
+def test_localizing_that_is_interrupted_keeps_what_it_had(tmp_path, tmp_path_factory, number):
+    slow = tmp_path_factory.mktemp("settings") / "slow.toml"
+    slow.write_text("[localizer]\nproposals = 300_000\n")  # so that it does not end before the signal
+    code, err = interrupted(number, *SCANS, "--settings", slow, "-o", tmp_path / "out.jsonl")
     partial = tmp_path / "out.partial.jsonl"
 
     assert 128 + number == code, err

@@ -1,5 +1,6 @@
 """Every task comes back once, whatever becomes of the processes that run it."""
 
+import contextlib
 from pathlib import Path
 
 import pytest
@@ -68,6 +69,14 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(address, monkeypatch)
     assert "\n" not in str(caught.value)
 
 
+def connected(address):
+    """Connect; a thread of `distributed` that a busy machine starts too late is tried again."""
+    for _ in range(2):
+        with contextlib.suppress(ClusterError):
+            return Cluster(address)
+    return Cluster(address)
+
+
 @pytest.mark.slow
 def test_a_killed_worker_of_a_cluster_loses_no_task(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
@@ -78,7 +87,7 @@ def test_a_killed_worker_of_a_cluster_loses_no_task(tmp_path, monkeypatch):
     markers = [str(tmp_path / name) for name in "abcd"]
     for marker in markers[1:]:
         Path(marker).touch()  # only the first one kills
-    with local_cluster() as (address, _), Cluster(address) as cluster:
+    with local_cluster() as (address, _), connected(address) as cluster:
         found = dict(cluster.run(ranking_tasks.die_once, markers))
         failed = dict(cluster.run(ranking_tasks.fail_if_negative, [2, -1]))
 
@@ -94,7 +103,7 @@ def test_a_worker_that_lacks_what_it_needs_is_told():
 
     with (
         local_cluster() as (address, _),
-        Cluster(address) as cluster,
+        connected(address) as cluster,
         pytest.raises(ClusterError, match="lacks pilotage"),
     ):
         list(cluster.run(ranking_tasks.square, [1]))  # workers do not see the tests

@@ -138,7 +138,7 @@ def ros2(
         seed,
         known,
         scale,
-        resume,
+        resume=resume,
     )
     topics = Topics(
         scan_topic,
@@ -205,13 +205,14 @@ def chosen_settings(path: Path | None, limits: dict[str, float | None], length: 
     return replace(settings, navigator=navigator)
 
 
-def open_session(  # noqa: PLR0917  # as the command line has them
+def open_session(
     sketch: "SchematicMap",
     settings: "Settings",
     seed: int,
     start: tuple[float, float, float] | None,
     scale: float | None,
-    resume: Path | None,
+    *,
+    resume: Path | None = None,
 ) -> "Session":
     """Prepare the drawing, and compile what a step needs before the robot waits for it."""
     from pilotage.errors import FileError

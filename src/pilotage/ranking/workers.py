@@ -147,7 +147,7 @@ class Cluster:
             ) from error
         try:
             self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, AssertionError) as error:  # the last if its own thread does not start
             reason = (str(error) or type(error).__name__).splitlines()[0]
             raise ClusterError(f"there is no scheduler of Dask at {address} ({reason})") from error
 
