@@ -12,8 +12,7 @@ from buildings import WALLS, coarse, scan_at, walk
 from pilotage.correction import NothingBelievedError, PassageState, Sighting, correct_drawing
 from pilotage.correction.passages import state_of
 from pilotage.correction.sighting import surface_normals
-from pilotage.evaluation.walls import aligned
-from pilotage.geometry import Affine2, Polyline, Pose2
+from pilotage.geometry import Affine2, Polyline, Pose2, fit_similarity
 from pilotage.localization import Estimate, PoseHypothesis, Status
 from pilotage.maps import SchematicMap, build_atlas
 
@@ -56,7 +55,7 @@ def distances(corrected, sketch_from_world):
         [wall.ring[:-1] + k * np.diff(wall.ring, axis=0) for wall in WALLS for k in (0.3, 0.7)]
     )
     found = corrected.metres_from_sketch @ sketch_from_world(places)
-    return np.hypot(*(aligned(found, places, rigid=True) - places).T)
+    return np.hypot(*(fit_similarity(found, places, rigid=True) @ found - places).T)
 
 
 @settings(deadline=None, max_examples=3)

@@ -6,7 +6,7 @@ import shapely
 from pilotage.correction import CorrectedDrawing, Passage, PassageState
 from pilotage.correction.spline import ElasticMap, SplineGrid
 from pilotage.figures.corrected import corrected_figure
-from pilotage.geometry import Polyline
+from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.maps import SchematicMap
 
 WALLS = Polyline.through([(3, 2.5), (3, 4), (0, 4), (0, 0), (3, 0), (3, 1.5)])
@@ -23,7 +23,7 @@ def test_it_shows_both_drawings_and_what_was_seen():
         (Passage("g0", [[3.0, 1.5], [3.0, 2.5]], PassageState.CLOSED),),
         (shapely.box(0, 0, 3, 4),),
         np.zeros((2, 3)),
-        ElasticMap(np.eye(2), np.zeros(2), grid, grid.nodes),
+        ElasticMap(Similarity2(1.0, Pose2.identity()), grid, grid.nodes),
         0.1,
     )
 

@@ -1,6 +1,5 @@
 """The drawing as the robot found it: in metres, and what of it was seen."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -40,15 +39,19 @@ class NothingBelievedError(ValueError):
 def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDrawing:
     """Move the strokes of a drawing to where the robot saw its walls, in metres.
 
-    Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not, or if
-    more than a third of these places do not lie on one path.
+    Raises NothingBelievedError if fewer than ten sightings have a place that is more probable than not, if
+    these places are all the same, or if more than a third of them do not lie on one path.
     """
     believed = sum(one.probability >= BELIEVED for one in sightings)
     if believed < FEWEST:
         raise NothingBelievedError(
             f"a correction needs {FEWEST} keyframes of at least probability {BELIEVED:g}, got {believed}"
         )
-    found = laid_as_drawn(fit(atlas.sketch, sightings, BELIEVED), atlas.sketch)
+    try:
+        fitted = fit(atlas.sketch, sightings, BELIEVED)
+    except ValueError as error:
+        raise NothingBelievedError("the places that were believed must not be one and the same") from error
+    found = laid_as_drawn(fitted, atlas.sketch)
     check_agreement(found, sightings)
     seen: list[Polyline] = []
     unseen: list[Polyline] = []
@@ -84,8 +87,7 @@ def check_agreement(found: Fit, sightings: Sequence[Sighting]) -> None:
 
 def laid_as_drawn(found: Fit, sketch: SchematicMap) -> Fit:
     """Turn all as the sheet lies, and move the lower left of the strokes near the origin."""
-    (a, _), (c, _) = found.elastic.linear
-    turn = Pose2(0.0, 0.0, -math.atan2(c, a))
+    turn = Pose2(0.0, 0.0, -found.elastic.rough.pose.theta)
     vertices = np.vstack([stroke.vertices for stroke in sketch.strokes])
     low = (turn @ (found.elastic @ vertices)).min(axis=0)
     sheet_from_odom = Pose2(-float(low[0]), -float(low[1]), turn.theta)
@@ -107,10 +109,9 @@ def find_seen(atlas: Atlas, sightings: Sequence[Sighting], found: Fit) -> list[N
     lasers = path.from_base(surfaces.lasers, surfaces.owners)
     carried = Carried.by(found.elastic, pieces)
     shown = associate(carried, lasers, points, normals)
-    chosen, shares = shown.pieces, shown.shares[:, np.newaxis]
-    places = carried.starts[chosen] * (1.0 - shares) + carried.ends[chosen] * shares
-    off = ((places - points[shown.points]) * normals[shown.points]).sum(axis=1) + found.half_thickness
-    counts = np.bincount(chosen[np.abs(off) < SEEN_WITHIN], minlength=len(pieces))
+    behind = ((shown.places(carried) - points[shown.points]) * normals[shown.points]).sum(axis=1)
+    off = behind + found.half_thickness
+    counts = np.bincount(shown.pieces[np.abs(off) < SEEN_WITHIN], minlength=len(pieces))
     bounds = np.cumsum([len(one) for one in of_strokes])[:-1]
     return [without_gaps(flags) for flags in np.split(counts >= SEEN_POINTS, bounds)]
 

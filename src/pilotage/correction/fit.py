@@ -7,7 +7,6 @@ thickness of a wall, which is drawn as one stroke and seen from two sides.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +15,10 @@ from scipy.sparse.linalg import splu
 from scipy.spatial import cKDTree
 
 from pilotage.correction.sighting import Sighting
+from pilotage.correction.similarity import robust, robust_similarity
 from pilotage.correction.spline import ElasticMap, Rows, SplineGrid
 from pilotage.correction.trajectory import Path, path_of
-from pilotage.correction.walls import Association, Carried, Pieces, associate, find_posts
+from pilotage.correction.walls import Carried, Pieces, associate, find_posts
 from pilotage.geometry import Array, Polyline
 from pilotage.maps import SchematicMap
 
@@ -37,17 +37,13 @@ POST_STD = 0.07
 POINTS_AN_EYE = 8.0
 """Number of independent surface points in a sighting: more of them err together."""
 THICKNESS_STD = 0.01
-"""[m] Prior of half the thickness of a wall is 0 with this spread over the weight of all points."""
+"""[m] Standard deviation of half the thickness of a wall around 0, before anything is seen."""
 PLACE_STD, PLACE_STD_SHARE = 0.7, 0.15
 """[m, share of its distance] of a point seen from an estimate: where the estimate puts it on the drawing."""
 LATER = 0.05
 """Weight of the estimates once walls are associated."""
 NEAR, EVERY = 6.0, 6
 """[m] Of the surface points within this distance every sixth goes with the estimate."""
-TRIED = 40
-"""Pairs of places of which any two make a first guess of the similarity."""
-GATES = (10.0, 10.0, 6.0, 4.0, 4.0, 4.0)
-"""[m] of the robust kernel while the similarity is found."""
 MIN_GATE = 2.0
 """[m] of the robust kernel for estimates afterwards, at least."""
 
@@ -116,19 +112,18 @@ def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) ->
     """Fit to sightings, of which at least one is as probable as `believed`."""
     path = path_of([one.odom_from_base for one in sightings], np.array([one.travel for one in sightings]))
     surfaces, beliefs = Surfaces.of(sightings), Beliefs.of(sightings, believed)
-    linear, translation = robust_similarity(
+    rough = robust_similarity(
         beliefs.in_sketch, path.from_base(beliefs.points, beliefs.owners), beliefs.weights
     )
-    segments = sketch.segments
-    rough = np.hstack([segments[:, :2] @ linear.T + translation, segments[:, 2:] @ linear.T + translation])
-    grid = SplineGrid.over(rough.reshape(-1, 2), SPACING, MOST_NODES)
-    found = Fit(ElasticMap(linear, translation, grid, grid.nodes), path, 0.0)
-    posts = find_posts([Polyline(s.vertices @ linear.T + translation, s.closed) for s in sketch.strokes])
+    ends = rough @ sketch.segments.reshape(-1, 2)
+    grid = SplineGrid.over(ends, SPACING, MOST_NODES)
+    found = Fit(ElasticMap(rough, grid, grid.nodes), path, 0.0)
+    posts = find_posts([Polyline(rough @ stroke.vertices, stroke.closed) for stroke in sketch.strokes])
     edges = Points(
         np.vstack([one.edges for one in sightings]),
         np.repeat(np.arange(len(sightings)), [len(one.edges) for one in sightings]),
     )
-    problem = Problem(Pieces.of(rough), surfaces, beliefs, grid, posts, edges)
+    problem = Problem(Pieces.of(ends.reshape(-1, 4)), surfaces, beliefs, grid, posts, edges)
     for number, (stiffness, gate, rounds) in enumerate(STAGES):
         for turn in range(rounds):
             by_estimates = number == 0 and turn < rounds - 1  # walls are not associated yet
@@ -206,7 +201,7 @@ class Problem:
         lasers = path.from_base(surfaces.lasers, surfaces.owners)
         shown = associate(Carried.by(last.elastic, self.pieces), lasers, points, normals)
         owners, points, normals = surfaces.owners[shown.points], points[shown.points], normals[shown.points]
-        basis = self.grid.basis(places_of(shown, self.pieces))
+        basis = self.grid.basis(shown.places(self.pieces))
         off = ((basis @ last.elastic.coefficients - points) * normals).sum(axis=1) + last.half_thickness
         kernel = robust(off, gate)
         counts = np.bincount(owners, kernel, len(path.poses))[owners]
@@ -259,52 +254,3 @@ def pose_rows(path: Path, owners: NDArray[np.intp], moving: Array, turning: Arra
     values = np.concatenate([moving[:, 0], moving[:, 1], turning])
     rows = coo_matrix((values, (np.tile(np.arange(count), 3), columns)), shape=(count, 3 * len(path.poses)))
     return rows.tocsr() @ path.pose_changes
-
-
-def places_of(shown: Association, pieces: Pieces) -> Array:
-    """Return the places that are shown, (k, 2) [roughly metres]."""
-    starts, ends = pieces.starts[shown.pieces], pieces.ends[shown.pieces]
-    return np.asarray(starts + shown.shares[:, np.newaxis] * (ends - starts))
-
-
-def robust(off: Array, gate: float) -> Array:
-    """Weigh residuals (n,) as the kernel of Geman and McClure does: those beyond the gate hardly count."""
-    return np.asarray((gate**2 / (gate**2 + off**2)) ** 2)
-
-
-def robust_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:
-    """Fit a similarity, linear (2, 2) and translation (2,), to pairs (n, 2), most of which agree.
-
-    It begins with the best of those through two of the pairs, evenly spaced: a localizer that was wrong for a
-    while is outvoted.
-    """
-    tried = np.unique(np.linspace(0, len(points) - 1, TRIED).astype(np.intp))
-    best, most = (np.eye(2), np.zeros(2)), -1.0
-    for pair in combinations(tried.tolist(), 2):
-        chosen = list(pair)
-        guess = weighted_similarity(points[chosen], images[chosen], np.ones(2))
-        agreeing = float(weights**2 @ kernel_of(guess, points, images, GATES[0]))
-        if agreeing > most:
-            best, most = guess, agreeing
-    for gate in GATES:
-        kernel = kernel_of(best, points, images, gate)
-        best = weighted_similarity(points, images, kernel * weights**2)
-    return best
-
-
-def kernel_of(similarity: tuple[Array, Array], points: Array, images: Array, gate: float) -> Array:
-    """Weigh pairs (n, 2) by how well a similarity carries one to the other, (n,)."""
-    linear, translation = similarity
-    return robust(np.hypot(*(points @ linear.T + translation - images).T), gate)
-
-
-def weighted_similarity(points: Array, images: Array, weights: Array) -> tuple[Array, Array]:
-    """Fit a similarity by weighted least squares: as complex numbers, images = factor points + shift."""
-    shares = weights / weights.sum()
-    a, b = points @ (1.0, 1j), images @ (1.0, 1j)
-    middle_a, middle_b = shares @ a, shares @ b
-    a, b = a - middle_a, b - middle_b
-    factor = (shares @ (a.conj() * b)) / max(float(shares @ np.abs(a) ** 2), 1e-300)
-    shift = middle_b - factor * middle_a
-    linear = np.array([[factor.real, -factor.imag], [factor.imag, factor.real]])
-    return linear, np.array([shift.real, shift.imag])

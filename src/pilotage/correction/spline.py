@@ -2,13 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
 from scipy.sparse import coo_matrix, csr_matrix, vstack
 
-from pilotage.geometry import Array
+from pilotage.geometry import Array, Similarity2
 
 Rows = Any
 """A sparse matrix of scipy, which has no types."""
@@ -114,14 +113,13 @@ class SplineGrid:
 class ElasticMap:
     """A similarity, then a smooth change: from the drawing to metres."""
 
-    linear: Array  # (2, 2) of the similarity, to roughly metres
-    translation: Array  # (2,)
+    rough: Similarity2  # from the drawing to roughly metres
     grid: SplineGrid  # over roughly metres
     coefficients: Array  # (k, 2) [m]
 
     def roughly(self, points: Array) -> Array:
         """Carry points (n, 2) by the similarity alone."""
-        return np.asarray(points @ self.linear.T + self.translation)
+        return self.rough @ points
 
     def from_roughly(self, points: Array) -> Array:
         """Carry points (n, 2) that are roughly in metres to where they are."""
@@ -131,7 +129,7 @@ class ElasticMap:
         """Carry points (n, 2) of the drawing to metres."""
         return self.from_roughly(self.roughly(points))
 
-    @cached_property
+    @property
     def scale(self) -> float:
         """Drawing units in a metre, by the similarity."""
-        return 1.0 / math.sqrt(float(np.linalg.det(self.linear)))
+        return 1.0 / self.rough.scale

@@ -119,6 +119,11 @@ class Association:
     pieces: NDArray[np.intp]  # (k,)
     shares: Array  # (k,) from the start of the piece, 0, to its end, 1
 
+    def places(self, pieces: "Pieces | Carried") -> Array:
+        """Return the places that are shown, (k, 2), in the units of the pieces."""
+        starts, ends = pieces.starts[self.pieces], pieces.ends[self.pieces]
+        return np.asarray(starts + self.shares[:, np.newaxis] * (ends - starts))
+
 
 def associate(carried: Carried, lasers: Array, points: Array, normals: Array) -> Association:
     """Take each surface point (m, 2) [m] for the first wall along its beam, if range and direction agree.

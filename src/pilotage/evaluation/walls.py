@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from pilotage.evaluation.warp import Warp
-from pilotage.geometry import Array
+from pilotage.geometry import Array, fit_similarity
 from pilotage.maps import SchematicMap
 
 STEP = 0.25
@@ -55,21 +55,9 @@ class TrueWalls:
         return self._gap(corrected, rigid=True)
 
     def _error(self, points: Array, *, rigid: bool) -> float:
-        return float(np.hypot(*(aligned(points, self.in_world, rigid=rigid) - self.in_world).T).mean())
+        moved = fit_similarity(points, self.in_world, rigid=rigid) @ points
+        return float(np.hypot(*(moved - self.in_world).T).mean())
 
     def _gap(self, points: Array, *, rigid: bool) -> float:
-        return float(cKDTree(self.hits).query(aligned(points, self.in_world, rigid=rigid))[0].mean())
-
-
-def aligned(points: Array, images: Array, *, rigid: bool) -> Array:
-    """Move points (n, 2) to their images by the similarity of least squares; a rigid one keeps their scale.
-
-    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    >>> float(np.abs(aligned(square, 2.0 * square + 5.0, rigid=False) - 2.0 * square - 5.0).max().round(9))
-    0.0
-    """
-    a, b = points @ np.array([1.0, 1j]), images @ np.array([1.0, 1j])
-    a, middle = a - a.mean(), b.mean()
-    factor = (a.conj() @ (b - middle)) / (a.conj() @ a).real
-    moved = a * (factor / abs(factor) if rigid else factor) + middle
-    return np.column_stack([moved.real, moved.imag])
+        moved = fit_similarity(points, self.in_world, rigid=rigid) @ points
+        return float(cKDTree(self.hits).query(moved)[0].mean())

@@ -7,7 +7,7 @@ from pilotage.geometry.homography import Homography
 from pilotage.geometry.polyline import Polyline, segments_of
 from pilotage.geometry.pose import Pose2
 from pilotage.geometry.rings import fit_circle, signed_area
-from pilotage.geometry.similarity import Similarity2
+from pilotage.geometry.similarity import Similarity2, fit_similarity
 from pilotage.geometry.span import Span
 from pilotage.geometry.trajectory import Trajectory
 from pilotage.geometry.twist import Twist
@@ -23,6 +23,7 @@ __all__ = [
     "Trajectory",
     "Twist",
     "fit_circle",
+    "fit_similarity",
     "frozen_array",
     "frozen_points",
     "segments_of",

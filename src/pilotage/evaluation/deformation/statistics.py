@@ -7,7 +7,7 @@ import shapely
 
 from pilotage.evaluation.deformation.plan import Plan
 from pilotage.evaluation.rooms import Rooms
-from pilotage.geometry import Array
+from pilotage.geometry import Array, fit_similarity
 
 SPAN = 2.0
 """[m] Over which local scale and stretch are measured."""
@@ -75,8 +75,6 @@ def local_maps(plan: Plan, points: Array) -> Array:
 
 
 def similarity_miss(in_world: Array, in_sketch: Array) -> float:
-    """Return how far points (n, 2) [m] are from where the best similarity has them (Umeyama 1991)."""
-    z, w = (points @ np.array([1.0, 1.0j]) for points in (in_world, in_sketch))
-    z, w = z - z.mean(), w - w.mean()
-    factor = np.vdot(w, z) / np.vdot(w, w)
-    return float(np.sqrt(np.mean(np.abs(factor * w - z) ** 2)))
+    """Return how far points (n, 2) [m] are from where the best similarity has them, root mean square."""
+    off = fit_similarity(in_sketch, in_world) @ in_sketch - in_world
+    return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
