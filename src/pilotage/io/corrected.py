@@ -14,7 +14,10 @@ from PIL import Image, ImageDraw
 from pilotage.correction import CorrectedDrawing, PassageState
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
+from pilotage.interpretation import Role
 from pilotage.io.files import replacing, write_text
+from pilotage.io.svg.reader import SCALE
+from pilotage.maps import Zones
 
 SVG_ENDINGS, MAP_ENDINGS = (".svg",), (".yaml", ".yml")
 MARGIN = 1.0
@@ -63,7 +66,7 @@ def svg_text(corrected: CorrectedDrawing) -> str:
     parts = [
         (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{num(20 * width)}" height="{num(20 * height)}"'
-            f' viewBox="{num(left)} {num(-top)} {num(width)} {num(height)}">'
+            f' viewBox="{num(left)} {num(-top)} {num(width)} {num(height)}" {SCALE}="1">'
         ),
         (
             f"<desc>A drawing as a robot found it. Its unit is the metre; on the sheet a metre was "
@@ -98,6 +101,7 @@ def svg_text(corrected: CorrectedDrawing) -> str:
             for label in corrected.sketch.labels
         ),
         "</g>",
+        *zone_marks(corrected.sketch.zones),
         *mark("start", corrected.sketch.start, size),
         *mark("goal", corrected.sketch.goal, size),
         "</svg>",
@@ -109,6 +113,16 @@ def path_of(line: Polyline, attributes: str = "") -> str:
     """Write a polyline as a path."""
     points = " ".join(f"{num(x)} {num(-y)}" for x, y in line.vertices.tolist())
     return f'<path d="M {points}{" Z" if line.closed else ""}"{attributes and " " + attributes}/>'
+
+
+def zone_marks(zones: Zones) -> list[str]:
+    """Write where not to drive, where to drive slowly, and which way to pass, by the names of their roles."""
+    names = (Role.KEEP_OUT, Role.SLOW, Role.ONE_WAY)
+    return [
+        path_of(line, f'class="{role.value}" fill="none" stroke="gray" stroke-width="{num(THINNEST)}"')
+        for role, lines in zip(names, zones.lines, strict=True)
+        for line in lines
+    ]
 
 
 def mark(name: str, place: tuple[float, float] | None, size: float) -> list[str]:
