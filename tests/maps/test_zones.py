@@ -6,28 +6,10 @@ import shapely
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from buildings import coarse
+from four_rooms import GRAPH
 from pilotage.geometry import Polyline
-from pilotage.maps import Roadmap, RouteError, RouteSettings, SchematicMap, Zones, build_atlas, find_route
+from pilotage.maps import Roadmap, RouteError, RouteSettings, Zones, find_route
 
-RING = SchematicMap(
-    tuple(
-        map(
-            Polyline.through,
-            (
-                [(0, 0), (12, 0), (12, 9), (0, 9), (0, 0)],
-                [(5, 0), (5, 2)],
-                [(5, 3), (5, 6.5)],
-                [(5, 7.5), (5, 9)],
-                [(0, 5), (1, 5)],
-                [(2, 5), (9, 5)],
-                [(10, 5), (12, 5)],
-            ),
-        )
-    )
-)
-"""Four rooms around a cross of walls, each with a door to two others [m]."""
-GRAPH = build_atlas(RING, coarse(80, 60)).cell_graph
 ROOMS = {
     "south west": (2.5, 2.5),
     "south east": (8.0, 2.5),

@@ -18,9 +18,10 @@ from pilotage.io.bags import outgoing
 from pilotage.io.bags.frames import frame_name, heading, seconds
 from pilotage.io.bags.messages import ODOMETRY_TYPE, SCAN_TYPE
 from pilotage.io.bags.recorder import TYPES
+from pilotage.navigation.steering import STILL
 from pilotage.ros.node import LATCHED_DEPTH, Quality
 from pilotage.ros.sensing import NotReadyError, Sensing
-from pilotage.ros.session import STILL, Goal, Session, Told
+from pilotage.ros.session import Goal, Session, Told
 from pilotage.ros.watchdog import NO_SCAN, Watchdog
 
 TF_TYPE, POSE_TYPE, PATH_TYPE = TYPES["/tf"], TYPES["/pilotage/pose"], TYPES["/pilotage/path"]

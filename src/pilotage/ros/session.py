@@ -12,9 +12,8 @@ from pilotage.localization import Estimate, Localizer, LocalizerSettings
 from pilotage.maps import Atlas
 from pilotage.navigation import Navigator, NavigatorSettings, Step, Tour
 from pilotage.navigation.dead_reckoning import DeadReckoning
+from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry, Reading
-
-STILL = Twist(0.0, 0.0)
 
 SETTLED = 0.9
 """Probability of a place from which on the scale there becomes that of the frame `map`."""

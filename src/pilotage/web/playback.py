@@ -15,10 +15,8 @@ from pilotage.simulation import World
 from pilotage.web.drawings import Json, Page, describe_drawing
 from pilotage.web.frames import describe_world, told_frame, true_place, true_pose, values
 from pilotage.web.order import RecordingOrder
-from pilotage.web.replay import graph_of
+from pilotage.web.replay import LONGEST_PAUSE, graph_of
 
-LONGEST_PAUSE = 1.0
-"""A journal that pauses longer than this [s] is not waited for."""
 WAY_POINTS = 1000
 """Points of the way that are told, about."""
 LEAST_ON_IT = 0.5

@@ -6,18 +6,17 @@ from pathlib import Path
 from pilotage.config import Settings
 from pilotage.correction import Sighting, append_sighting
 from pilotage.errors import PilotageError
-from pilotage.geometry import Twist
 from pilotage.io import open_log
 from pilotage.localization import Localizer
 from pilotage.maps import Atlas, CellGraph
 from pilotage.navigation import Behavior, Navigator, Step
+from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Reading
 from pilotage.web.drawings import Json, Page, describe_drawing
 from pilotage.web.frames import FrameMaker
 
 LONGEST_PAUSE = 1.0
-"""A log that pauses longer than this [s] is not waited for."""
-STILL = Twist(0.0, 0.0)
+"""A recording that pauses longer than this [s] is not waited for."""
 
 
 class NoRoomError(PilotageError):
