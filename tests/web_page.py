@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
 PICTURES = os.environ.get("TABLE_PICTURES")
 """Folder in which the pictures of the journeys are kept; without it they are taken and dropped."""
@@ -111,3 +111,15 @@ class Sheet:
     def ended(self, outcome: str) -> None:
         """Wait until the drive has ended like this."""
         expect(self.status).to_have_attribute("data-outcome", re.compile(outcome), timeout=8 * PATIENCE_MS)
+
+
+def on_a_phone(browser: Browser, address: str) -> Sheet:
+    """Open the quick drawing of the office on a phone; who calls it closes the page's context."""
+    context = browser.new_context(viewport={"width": 390, "height": 760}, has_touch=True)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_selector("body[data-ready]")
+    page.get_by_role("button", name="office, quick").tap()
+    sheet = Sheet(page)
+    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    return sheet

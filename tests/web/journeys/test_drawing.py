@@ -8,7 +8,7 @@ from PIL import Image, ImageDraw
 from playwright.sync_api import Browser, Page, expect
 
 import pilotage
-from web_page import PATIENCE_MS, Sheet
+from web_page import PATIENCE_MS, Sheet, on_a_phone
 
 pytestmark = pytest.mark.slow
 
@@ -170,17 +170,12 @@ def test_two_tabs_do_not_lose_each_others_work(sheet: Sheet, folder: Path) -> No
 
 
 def test_the_page_fits_a_phone(browser: Browser, address: str) -> None:
-    context = browser.new_context(viewport={"width": 390, "height": 760}, has_touch=True)
-    page = context.new_page()
-    page.goto(address)
-    page.wait_for_selector("body[data-ready]")
-    page.get_by_role("button", name="office, quick").tap()
-    sheet = Sheet(page)
-    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    sheet = on_a_phone(browser, address)
+    page = sheet.page
     sheet.shot("phone")
 
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
-    context.close()
+    page.context.close()
 
 
 def dxf(lines: list[tuple[float, float, float, float]]) -> str:

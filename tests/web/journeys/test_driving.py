@@ -6,7 +6,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from web_page import PATIENCE_MS, Sheet
+from web_page import PATIENCE_MS, Sheet, on_a_phone
 
 pytestmark = pytest.mark.slow
 
@@ -174,13 +174,8 @@ def tab_to(wanted: Locator) -> None:
 
 
 def test_a_drive_is_watched_on_a_phone(browser: Browser, address: str) -> None:
-    context = browser.new_context(viewport={"width": 390, "height": 760}, has_touch=True)
-    page = context.new_page()
-    page.goto(address)
-    page.wait_for_selector("body[data-ready]")
-    page.get_by_role("button", name="office, quick").tap()
-    sheet = Sheet(page)
-    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
+    sheet = on_a_phone(browser, address)
+    page = sheet.page
     page.get_by_role("button", name="Drive", exact=True).tap()
     page.get_by_role("combobox", name="Goal").select_option("Ana")
     page.get_by_test_id("go").tap()
@@ -194,7 +189,7 @@ def test_a_drive_is_watched_on_a_phone(browser: Browser, address: str) -> None:
         assert min(box["width"], box["height"]) > 100
     page.get_by_role("button", name="Pause").tap()
     expect(page.get_by_role("button", name="Go on")).to_be_visible(timeout=PATIENCE_MS)
-    context.close()
+    page.context.close()
 
 
 def test_nothing_seriously_bars_people_who_see_or_move_differently(page: Page, sheet: Sheet) -> None:
