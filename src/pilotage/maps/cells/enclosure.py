@@ -43,7 +43,7 @@ def drop_outdoors(
     if not space.outside.any():
         return regions
     kept = regions
-    while True:  # what opens wide to a yard is a yard, too
+    while True:
         yards = [
             number
             for number in find_yards(space, kept, only_wide=kept is not regions)
@@ -54,8 +54,10 @@ def drop_outdoors(
         if not yards:
             break
         found = np.isin(kept, yards)
-        space = replace(space, outside=space.outside | found)
         kept = np.where(found, -1, kept)
+        if not solids_known:  # in a sketch a corridor may end in the open, and is part of the building
+            break
+        space = replace(space, outside=space.outside | found)  # what opens wide to a yard is a yard, too
     if solids_known:
         return kept
     blocks = [number for number in find_blocks(space, kept) if not is_named(space, kept == number, labels)]
