@@ -38,26 +38,22 @@ def drop_outdoors(
 
     A closed region that a label names is a room, and so is each one where solids are known, or where no
     region has a door: then doors were not drawn at all. A region that opens to the outside alone is a room
-    if it does so by doors, and a label names it or solids are known.
+    if it does so by doors, and a label names it or solids are known. What gapes at the outside is a yard only
+    where solids are known: in a sketch the end of a room or corridor is often left open.
     """
     if not space.outside.any():
         return regions
     kept = regions
-    while True:
-        yards = [
-            number
-            for number in find_yards(space, kept, only_wide=kept is not regions)
-            if not (
-                (solids_known or is_named(space, kept == number, labels)) and has_front(space, kept, number)
-            )
-        ]
-        if not yards:
-            break
+    while yards := [
+        number
+        for number in find_yards(space, kept, gaping=solids_known, apart=kept is regions)
+        if not ((solids_known or is_named(space, kept == number, labels)) and has_front(space, kept, number))
+    ]:
         found = np.isin(kept, yards)
         kept = np.where(found, -1, kept)
-        if not solids_known:  # in a sketch a corridor may end in the open, and is part of the building
+        if not solids_known:
             break
-        space = replace(space, outside=space.outside | found)  # what opens wide to a yard is a yard, too
+        space = replace(space, outside=space.outside | found)  # what gapes at a yard is a yard, too
     if solids_known:
         return kept
     blocks = [number for number in find_blocks(space, kept) if not is_named(space, kept == number, labels)]
@@ -87,27 +83,33 @@ def has_front(space: FreeSpace, regions: NDArray[np.int64], number: int) -> bool
     return bool(widest < FRONT_DOOR * space.tessellation.reaches[regions == number].max())
 
 
-def find_yards(space: FreeSpace, regions: NDArray[np.int64], *, only_wide: bool = False) -> list[int]:
-    """Find regions that belong to the outside: open to it alone, or far wider than to any other region.
+def find_yards(space: FreeSpace, regions: NDArray[np.int64], *, gaping: bool, apart: bool) -> list[int]:
+    """Find regions that belong to the outside.
 
-    `only_wide` leaves out those that open to the outside alone, but not widely.
+    With `apart` those that open to the outside alone; with `gaping` those that open to it widely, and far
+    wider than to any other region.
     """
     yards = []
-    for number in np.unique(regions[regions >= 0]):
+    numbers = np.unique(regions[regions >= 0])
+    for number in numbers:
         openings = openings_of(space, regions, number)
         if len(openings.exits) == 0:
             continue
-        members = regions == number
-        reach = space.tessellation.reaches[members].max()
-        widest = openings.exits.max()
-        outline = shapely.length(shapely.union_all(space.tessellation.pieces[members]))
-        is_wide_open = widest >= YARD_MOUTH * reach and openings.exits.sum() >= YARD_SHARE * outline
         is_apart = len(openings.doors) == 0
-        if (is_apart and not only_wide) or (
-            is_wide_open and (is_apart or YARD_MOUTH * widest > openings.doors.max())
-        ):
+        if (apart and is_apart) or (gaping and does_gape(space, regions == number, openings)):
             yards.append(int(number))
-    return yards if len(yards) < len(np.unique(regions[regions >= 0])) else []
+    return yards if len(yards) < len(numbers) else []
+
+
+def does_gape(space: FreeSpace, members: NDArray[np.bool_], openings: Openings) -> bool:
+    """Tell whether a region opens to the outside in its full width, and far wider than to any other."""
+    widest = openings.exits.max()
+    outline = shapely.length(shapely.union_all(space.tessellation.pieces[members]))
+    return bool(
+        widest >= YARD_MOUTH * space.tessellation.reaches[members].max()
+        and openings.exits.sum() >= YARD_SHARE * outline
+        and (len(openings.doors) == 0 or YARD_MOUTH * widest > openings.doors.max())
+    )
 
 
 def find_blocks(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
