@@ -29,7 +29,8 @@ from benchmarks.lib.lineup import line_up, write_pieces
 from benchmarks.lib.results import Figures
 from benchmarks.lib.tables import percent, prose, table
 from pilotage.evaluation.intervals import bootstrap_interval
-from pilotage.ranking import Board, Cluster, Processes, Score, rank
+from pilotage.ranking import Board, Score, rank
+from pilotage.workers import Cluster, Processes
 
 TRAVEL = 40.0  # [m]
 FIRST_PLACES = 5

@@ -5,9 +5,9 @@ from contextlib import nullcontext
 
 import pytest
 
-from pilotage import FileError, LocalizerSettings, ranking, worlds
+from pilotage import FileError, LocalizerSettings, ranking, workers, worlds
 from pilotage.cli import which
-from pilotage.ranking import Evidence, Score, workers
+from pilotage.ranking import Evidence, Score
 from pilotage.ranking.evidence import reduced
 
 
