@@ -16,15 +16,22 @@ from shared_data import LOGS, needs_logs
 OFFICE = worlds.OFFICE.folder
 SKETCHES = LOGS.parent / "sketches"
 FEW = reduced(LocalizerSettings(), 1 / 8)
+FEW_TOML = """[localizer]
+proposals = 4000
+[localizer.tracks]
+first_count = 40000
+max_count = 8000
+min_count = 2000
+"""
 
 
 @pytest.mark.slow
 def test_the_packed_log_corrects_the_packed_sketch(pilotage, tmp_path):
-    out = tmp_path / "corrected.svg"
+    out, settings = tmp_path / "corrected.svg", tmp_path / "few.toml"
+    settings.write_text(FEW_TOML)
+    words = ("-o", tmp_path / "out.jsonl", "--corrected", out, "--settings", settings)
 
-    outcome = pilotage(
-        "localize", OFFICE / "quick.svg", worlds.LOG, "-o", tmp_path / "out.jsonl", "--corrected", out
-    )
+    outcome = pilotage("localize", OFFICE / "quick.svg", worlds.LOG, *words)
 
     assert 0 == outcome.code
     assert "Corrected: " in outcome.err
