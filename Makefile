@@ -2,6 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+unexport PYTHONDONTWRITEBYTECODE  # tests start many processes: each shall find its modules compiled
 
 .PHONY: demo table page check test fix reference bench clean
 

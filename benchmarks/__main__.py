@@ -1,8 +1,8 @@
 """Run a benchmark: `python -m benchmarks NAME [options]`; `--help` lists all.
 
 The figures of a run with default options are kept in `benchmarks/results/NAME.json`; other runs are kept only
-with `--save`. `readme` writes the tables of README's section *Measured* from these files. `fetch` checks the
-data of others that benchmarks read.
+with `--save`. `all` runs all of them, in processes or on a cluster. `readme` writes the tables of README's
+section *Measured* from these files. `fetch` checks the data of others that benchmarks read.
 """
 
 import argparse
@@ -48,7 +48,7 @@ NAMES = (
     "worlds_from_logs",
 )
 WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak", "table")
-TOOLS = ("readme", "fetch")
+TOOLS = ("all", "readme", "fetch")
 BESIDE = {
     "json",
     "save",
@@ -67,20 +67,16 @@ def main() -> None:
         print(overview())
     elif words[0] in TOOLS:
         import_module(f"benchmarks.{words[0]}").main(words[1:])
-    elif words == ["all"]:
-        for name in NAMES:
-            print(f"\n== {name}", flush=True)
-            run(name, [])
     elif words[0] in NAMES:
         run(words[0], words[1:])
     else:
-        sys.exit(f"there is no benchmark {words[0]}; known are all, {', '.join((*NAMES, *TOOLS))}")
+        sys.exit(f"there is no benchmark {words[0]}; known are {', '.join((*NAMES, *TOOLS))}")
 
 
 def overview() -> str:
     """Describe all benchmarks, a sentence each."""
     lines = [f"  {name:18s}{sentence_of(import_module(f'benchmarks.{name}'))}" for name in (*NAMES, *TOOLS)]
-    return "\n".join([*(__doc__ or "").splitlines(), *lines, f"  {'all':18s}Run all with default options."])
+    return "\n".join([*(__doc__ or "").splitlines(), *lines])
 
 
 def sentence_of(module: ModuleType) -> str:
@@ -124,6 +120,11 @@ def parser_of(module: ModuleType, name: str) -> argparse.ArgumentParser:
     )
     saving.add_argument("--no-save", action="store_true", help="do not keep the figures")
     return parser
+
+
+def accepts_jobs(name: str) -> bool:
+    """Tell whether the number of processes of a benchmark can be chosen."""
+    return "jobs" in vars(parser_of(import_module(f"benchmarks.{name}"), name).parse_args([]))
 
 
 def is_default(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> bool:

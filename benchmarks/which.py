@@ -1,11 +1,12 @@
 """Choose among a hundred drawings the one of the building that a log was made in.
 
-    python -m benchmarks which [--pieces N] [--drawings N] [--workers N]
+    python -m benchmarks which [--pieces N] [--drawings N] [--workers N] [--no-kill | --only-kill]
 
 Pieces of 40 m of the logs of six buildings are compared with drawings of all of them: by draftsmen, quick,
 schematic, by people, and of the ladder. A drawing is right if it is of the log's building. One piece is
-compared alone, which gives the seconds, the others together, which is faster. The first piece is compared
-once more on two local workers of Dask, one of which is killed when a fifth of the drawings is done.
+compared alone, which gives the seconds, the others together, which is faster. The shortest piece is compared
+once more on two local workers of Dask, one of which is killed when a fifth of the drawings is done; with
+`--only-kill` nothing else is measured.
 """
 
 import argparse
@@ -28,7 +29,8 @@ from benchmarks.lib.lineup import line_up, write_pieces
 from benchmarks.lib.results import Figures
 from benchmarks.lib.tables import percent, prose, table
 from pilotage.evaluation.intervals import bootstrap_interval
-from pilotage.ranking import Board, Cluster, Processes, Score, rank
+from pilotage.ranking import Board, Score, rank
+from pilotage.workers import Cluster, Processes
 
 TRAVEL = 40.0  # [m]
 FIRST_PLACES = 5
@@ -41,7 +43,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--pieces", type=positive, default=2, help="of each log (default: %(default)s)")
     parser.add_argument("--drawings", type=positive, default=100, help="(default: %(default)s)")
     parser.add_argument("--workers", type=positive, default=2, help="processes (default: %(default)s)")
-    parser.add_argument("--no-kill", action="store_true", help="leave the killed worker out")
+    killing = parser.add_mutually_exclusive_group()
+    killing.add_argument("--no-kill", action="store_true", help="leave the killed worker out")
+    killing.add_argument("--only-kill", action="store_true", help="compare the shortest piece only, twice")
 
 
 def measure(arguments: argparse.Namespace) -> Figures:
@@ -55,6 +59,10 @@ def measure(arguments: argparse.Namespace) -> Figures:
             for building in arguments.buildings
             for path in write_pieces(folder, building, arguments.pieces, TRAVEL)
         ]
+        shortest = min(logs, key=lambda log: log.stat().st_size)
+        if arguments.only_kill:
+            rankings, times = ranked(drawings, [shortest], arguments.workers)
+            return {**times, **after_kill(drawings, shortest, rankings[shortest])}
         print(
             f"{'log':20s}{'place of a right one':>22s}{'evidence':>10s}{'best wrong':>12s}  first", flush=True
         )
@@ -69,9 +77,7 @@ def measure(arguments: argparse.Namespace) -> Figures:
             together = figures.get(f"{kind}_together", math.nan)
             print(f"{kind.replace('_', ' ')}: {figures[kind]:.0f} alone, {together:.0f} together", flush=True)
         if not arguments.no_kill:
-            identical = after_kill(drawings, logs[0]) == alone[logs[0]]
-            figures["after_kill_identical"] = identical
-            print(f"after a worker was killed: {'the same' if identical else 'another'} ranking")
+            figures |= after_kill(drawings, shortest, rankings[shortest])
     return figures
 
 
@@ -150,9 +156,9 @@ def summarize(rows: dict[str, Figures]) -> Figures:
     return figures
 
 
-def after_kill(drawings: Sequence[Path], log: Path) -> tuple[Score, ...]:
-    """Rank drawings on two workers of Dask of which one is killed in mid-run."""
-    board, compared = Board(), 0
+def after_kill(drawings: Sequence[Path], log: Path, expected: tuple[Score, ...]) -> Figures:
+    """Rank drawings on two workers of Dask of which one is killed in mid-run; tell if that matters."""
+    board, compared, began = Board(), 0, time.perf_counter()
     with local_cluster() as (address, victim), Cluster(address) as workers:
 
         def watch(_text: str) -> None:
@@ -165,7 +171,13 @@ def after_kill(drawings: Sequence[Path], log: Path) -> tuple[Score, ...]:
             pass
         if victim.poll() is None:
             raise AssertionError("no worker was killed")
-    return board.ranking(log)
+    identical = board.ranking(log) == expected
+    seconds = time.perf_counter() - began
+    print(
+        f"{log.name}, {len(drawings)} drawings, a worker killed after {max(len(drawings) // 5, 1)}:"
+        f" {'the same' if identical else 'another'} ranking, {seconds:.0f} s"
+    )
+    return {"after_kill_identical": identical, "after_kill_seconds": seconds}
 
 
 @contextlib.contextmanager

@@ -13,6 +13,13 @@ from pilotage import worlds
 from pilotage.cli.exits import Stopped
 from pilotage.errors import PilotageError
 
+FEW = """[localizer]
+proposals = 500
+[localizer.tracks]
+first_count = 4000
+max_count = 2000
+min_count = 1000
+"""
 SCANS = ("localize", worlds.OFFICE.quick, worlds.LOG)
 
 
@@ -131,7 +138,9 @@ def interrupted(number, *words):
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_localizing_that_is_interrupted_keeps_what_it_had(tmp_path, number):
-    code, err = interrupted(number, *SCANS, "-o", tmp_path / "out.jsonl")
+    settings = tmp_path.with_suffix(".toml")
+    settings.write_text(FEW)
+    code, err = interrupted(number, *SCANS, "--settings", settings, "-o", tmp_path / "out.jsonl")
     partial = tmp_path / "out.partial.jsonl"
 
     assert 128 + number == code, err

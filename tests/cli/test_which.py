@@ -1,11 +1,21 @@
 """`pilotage which` ranks the drawing of the right building first, whatever the order of its arguments."""
 
 import pickle
+from contextlib import nullcontext
 
 import pytest
 
-from pilotage import FileError, ranking, worlds
-from pilotage.ranking import Evidence, Score, workers
+from pilotage import FileError, LocalizerSettings, ranking, workers, worlds
+from pilotage.cli import which
+from pilotage.ranking import Evidence, Score
+from pilotage.ranking.evidence import reduced
+
+
+class Here:
+    """A worker that is this process."""
+
+    def run(self, function, tasks):
+        yield from ((task, function(task)) for task in tasks)
 
 
 @pytest.mark.slow
@@ -13,7 +23,15 @@ def test_the_right_building_comes_first(pilotage, tmp_path):
     broken = tmp_path / "broken.svg"
     broken.write_text("<svg", encoding="utf-8")
     outcome = pilotage(
-        "which", worlds.MUSEUM.careful, worlds.LOG, worlds.OFFICE.careful, broken, "--travel", "25"
+        "which",
+        worlds.MUSEUM.careful,
+        worlds.LOG,
+        worlds.OFFICE.careful,
+        broken,
+        "--travel",
+        "12",
+        "--workers",
+        "1",
     )
     lines = outcome.out.splitlines()
 
@@ -24,7 +42,9 @@ def test_the_right_building_comes_first(pilotage, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_mirrored_drawing_is_told(pilotage, tmp_path):
+def test_a_mirrored_drawing_is_told(pilotage, tmp_path, monkeypatch):
+    monkeypatch.setattr(which, "opened", lambda *_: nullcontext(Here()))
+    monkeypatch.setitem(ranking.rank.__globals__, "SETTINGS", reduced(LocalizerSettings(), 1 / 8))
     content = worlds.OFFICE.careful.read_text(encoding="utf-8")
     opening = content.index(">", content.index("<svg")) + 1
     flipped = tmp_path / "flipped.svg"
@@ -32,7 +52,7 @@ def test_a_mirrored_drawing_is_told(pilotage, tmp_path):
         f'{content[:opening]}<g transform="scale(-1,1)">{content[opening:].replace("</svg>", "</g></svg>")}',
         encoding="utf-8",
     )
-    lines = pilotage("which", flipped, worlds.LOG, "--mirrored", "--travel", "25").out.splitlines()
+    lines = pilotage("which", flipped, worlds.LOG, "--mirrored", "--travel", "12").out.splitlines()
 
     assert 2 == len(lines)
     assert lines[0].endswith("flipped.svg, mirrored")

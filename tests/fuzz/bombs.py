@@ -4,41 +4,10 @@ import gzip
 import io
 import struct
 import zlib
+from collections.abc import Callable
 
 ZEROS = 600_000_000
 """Bytes that a packed file unpacks to."""
-
-
-def bombs() -> dict[str, bytes]:
-    """Return the name and the content of each."""
-    return {
-        "use-tenfold.svg": use_bomb(10, 6),
-        "use-twofold.svg": use_bomb(2, 18),
-        "use-itself.svg": b'<svg><g id="a"><use href="#a"/></g><use href="#a"/></svg>',
-        "css-descendants.svg": css_bomb(10, 24),
-        "css-braces.svg": f"<svg><style>{'a' * 40_000}</style><line x2='9'/></svg>".encode(),
-        "nested.svg": b"<svg>" + b"<g>" * 100_000 + b"</g>" * 100_000 + b"</svg>",
-        "many-lines.svg": b"<svg>" + b'<line x2="5" y2="3" stroke="red"/>' * 500_000 + b"</svg>",
-        "long-path.svg": b'<svg><path stroke="red" d="M0 0' + b" L5 5 L9 0" * 400_000 + b'"/></svg>',
-        "laughs.svg": laughs(),
-        "zeros.svgz": packed_zeros(b"<svg>"),
-        "run-zeros.log.gz": packed_zeros(b"FLASER "),
-        "wide.png": png_header(50_000, 50_000),
-        "large.png": png_header(4_400, 4_400),
-        "long.png": png_header(2**31 - 1, 1),
-        "settings-dots.toml": b"a." * 20_000 + b"a = 1",
-        "settings-brackets.toml": b"a = " + b"[" * 50_000,
-        "deep.excalidraw": b'{"type": "excalidraw", "elements": ' + b"[" * 100_000 + b"]" * 100_000 + b"}",
-        "deep.geojson": b'{"type": "FeatureCollection", "features": '
-        + b"[" * 100_000
-        + b"]" * 100_000
-        + b"}",
-        "deep.drawio": b"<mxfile>" + b"<a>" * 100_000 + b"</a>" * 100_000 + b"</mxfile>",
-        "world-far.yaml": b"image: plan.png\nresolution: 5000\norigin: [0, 0, 0]\n",
-        "world-absurd.yaml": b"image: plan.png\nresolution: 1e308\norigin: [0, 0, 0]\n",
-        "world-mm.svg": b'<svg><rect width="12000" height="8000" stroke="red"/></svg>',
-        "huge-numbers.svg": b'<svg><line x2="1e308" y2="5" stroke="red"/><rect width="9" height="9"/></svg>',
-    }
 
 
 def use_bomb(width: int, depth: int) -> bytes:
@@ -83,3 +52,37 @@ def png_header(width: int, height: int) -> bytes:
     rows = zlib.compress(b"\0" * min(height * (width + 1), 20_000_000), 1)
     head = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
     return b"\x89PNG\r\n\x1a\n" + head + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+BOMBS: dict[str, Callable[[], bytes]] = {
+    "use-tenfold.svg": lambda: use_bomb(10, 6),
+    "use-twofold.svg": lambda: use_bomb(2, 18),
+    "use-itself.svg": lambda: b'<svg><g id="a"><use href="#a"/></g><use href="#a"/></svg>',
+    "css-descendants.svg": lambda: css_bomb(10, 24),
+    "css-braces.svg": lambda: b"<svg><style>" + b"a" * 40_000 + b"</style><line x2='9'/></svg>",
+    "nested.svg": lambda: b"<svg>" + b"<g>" * 100_000 + b"</g>" * 100_000 + b"</svg>",
+    "many-lines.svg": lambda: b"<svg>" + b'<line x2="5" y2="3" stroke="red"/>' * 500_000 + b"</svg>",
+    "long-path.svg": lambda: b'<svg><path stroke="red" d="M0 0' + b" L5 5 L9 0" * 400_000 + b'"/></svg>',
+    "laughs.svg": laughs,
+    "zeros.svgz": lambda: packed_zeros(b"<svg>"),
+    "run-zeros.log.gz": lambda: packed_zeros(b"FLASER "),
+    "wide.png": lambda: png_header(50_000, 50_000),
+    "large.png": lambda: png_header(4_400, 4_400),
+    "long.png": lambda: png_header(2**31 - 1, 1),
+    "settings-dots.toml": lambda: b"a." * 20_000 + b"a = 1",
+    "settings-brackets.toml": lambda: b"a = " + b"[" * 50_000,
+    "deep.excalidraw": lambda: (
+        b'{"type": "excalidraw", "elements": ' + b"[" * 100_000 + b"]" * 100_000 + b"}"
+    ),
+    "deep.geojson": lambda: (
+        b'{"type": "FeatureCollection", "features": ' + b"[" * 100_000 + b"]" * 100_000 + b"}"
+    ),
+    "deep.drawio": lambda: b"<mxfile>" + b"<a>" * 100_000 + b"</a>" * 100_000 + b"</mxfile>",
+    "world-far.yaml": lambda: b"image: plan.png\nresolution: 5000\norigin: [0, 0, 0]\n",
+    "world-absurd.yaml": lambda: b"image: plan.png\nresolution: 1e308\norigin: [0, 0, 0]\n",
+    "world-mm.svg": lambda: b'<svg><rect width="12000" height="8000" stroke="red"/></svg>',
+    "huge-numbers.svg": lambda: (
+        b'<svg><line x2="1e308" y2="5" stroke="red"/><rect width="9" height="9"/></svg>'
+    ),
+}
+"""The name of each, and what makes its content."""

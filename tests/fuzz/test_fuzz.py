@@ -4,7 +4,7 @@ import os
 
 import pytest
 from tests.fuzz.__main__ import fuzz
-from tests.fuzz.bombs import bombs
+from tests.fuzz.bombs import BOMBS
 from tests.fuzz.seeds import seeds
 from tests.fuzz.worker import Worker
 
@@ -35,11 +35,11 @@ def test_spoilt_files_are_read_or_refused_in_one_line():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(bombs()))
+@pytest.mark.parametrize("name", sorted(BOMBS))
 def test_bombs_are_read_or_refused_in_bounded_time_and_memory(worker, tmp_path, name):
     (tmp_path / "plan.png").write_bytes(seeds()["a.png"])
     path = tmp_path / name
-    path.write_bytes(bombs()[name])
+    path.write_bytes(BOMBS[name]())
     verdict = worker.read(path)
 
     assert not verdict.is_bad, verdict

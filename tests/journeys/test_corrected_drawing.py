@@ -9,20 +9,29 @@ from pilotage.correction import append_sighting, correct_drawing
 from pilotage.evaluation.walls import TrueWalls
 from pilotage.evaluation.warp import read_warp
 from pilotage.io import open_log, open_map, open_world
-from pilotage.localization import Localizer
+from pilotage.localization import Localizer, LocalizerSettings
+from pilotage.ranking.evidence import reduced
 from shared_data import LOGS, needs_logs
 
 OFFICE = worlds.OFFICE.folder
 SKETCHES = LOGS.parent / "sketches"
+FEW = reduced(LocalizerSettings(), 1 / 8)
+FEW_TOML = """[localizer]
+proposals = 4000
+[localizer.tracks]
+first_count = 40000
+max_count = 8000
+min_count = 2000
+"""
 
 
 @pytest.mark.slow
 def test_the_packed_log_corrects_the_packed_sketch(pilotage, tmp_path):
-    out = tmp_path / "corrected.svg"
+    out, settings = tmp_path / "corrected.svg", tmp_path / "few.toml"
+    settings.write_text(FEW_TOML)
+    words = ("-o", tmp_path / "out.jsonl", "--corrected", out, "--settings", settings)
 
-    outcome = pilotage(
-        "localize", OFFICE / "quick.svg", worlds.LOG, "-o", tmp_path / "out.jsonl", "--corrected", out
-    )
+    outcome = pilotage("localize", OFFICE / "quick.svg", worlds.LOG, *words)
 
     assert 0 == outcome.code
     assert "Corrected: " in outcome.err
@@ -80,9 +89,9 @@ def test_an_ending_that_says_no_format_is_refused(pilotage, words):
 def test_a_real_log_halves_the_error_of_a_sketch():
     path = SKETCHES / "fhw" / "quick.svg"
     sketch = open_map(path)
-    localizer = Localizer(sketch)
+    localizer = Localizer(sketch, FEW)
     sightings = []
-    for reading in open_log(LOGS / "fhw.log.gz"):
+    for reading in open_log(LOGS / "fhw.log.gz").readings[::3]:
         localizer.update(reading.scan, reading.odometry)
         append_sighting(sightings, localizer, reading.scan)
     warp = read_warp(path.with_suffix(".json"), sketch)

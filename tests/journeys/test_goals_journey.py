@@ -11,16 +11,18 @@ from pilotage.drives import Drive, drive, set_out
 from pilotage.evaluation.drive import Destination, score
 from pilotage.evaluation.rooms import read_world_rooms
 from pilotage.io import open_map, open_world
-from pilotage.localization import Localizer, Status
+from pilotage.localization import Localizer, LocalizerSettings, Status
 from pilotage.navigation import Navigator, NavigatorSettings, Outcome
+from pilotage.ranking.evidence import reduced
 from pilotage.simulation import BodySettings, LaserSettings, Simulator, SimulatorSettings, find_start
 
+FEW = reduced(LocalizerSettings(), 1 / 8)
 SHORT = replace(Settings(), navigator=NavigatorSettings(time_limit=150.0))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("goal", ["Ana", "archive"])
-def test_a_room_that_is_named_is_reached_without_a_start(goal):
+def test_a_room_that_is_named_is_reached_without_a_start():
+    goal = "archive"
     navigator, simulator = set_out(
         open_map(worlds.OFFICE.careful), open_world(worlds.OFFICE.world), goal, seed=1, settings=SHORT
     )
@@ -48,11 +50,11 @@ class Unfit(Localizer):
         return self.estimate
 
 
-def by_a_drawing_of_another_building(kind, seconds):
+def by_a_drawing_of_another_building(kind, seconds, settings=SHORT.localizer):
     """Drive in the office by a drawing of the house."""
     sketch, world = open_map(worlds.HOME.careful), open_world(worlds.OFFICE.world)
     rng = np.random.default_rng(0)
-    localizer = kind(sketch, SHORT.localizer, seed=0)
+    localizer = kind(sketch, settings, seed=0)
     label = sketch.labels[0].text
     navigator = Navigator(localizer, label, NavigatorSettings(time_limit=seconds, mismatch_patience=20.0))
     simulator = Simulator(world, find_start(world, 0.2, rng), rng, SHORT.simulator)
@@ -62,7 +64,7 @@ def by_a_drawing_of_another_building(kind, seconds):
 
 @pytest.mark.slow
 def test_a_robot_that_knows_that_its_drawing_does_not_fit_says_so_and_has_looked_for_more():
-    told = by_a_drawing_of_another_building(Unfit, 60.0)
+    told = by_a_drawing_of_another_building(Unfit, 60.0, FEW)
 
     assert Outcome.MISMATCH is told.outcome
     assert "this drawing does not fit this building" == told.reason

@@ -53,7 +53,7 @@ def test_a_robot_finds_its_room_on_a_quick_drawing(building):
 @pytest.mark.slow
 @pytest.mark.parametrize("building", ["belgioioso", "csail"])
 def test_a_robot_finds_its_room_on_a_careful_drawing(building):
-    assert right_at_end(building, "draftsman", count=3, length=40.0, apart=1) >= 2
+    assert right_at_end(building, "draftsman", count=3, length=40.0, apart=2) >= 2
 
 
 @pytest.fixture(scope="module")

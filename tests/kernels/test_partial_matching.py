@@ -34,7 +34,7 @@ def pairs_of_chains(draw):
 def as_chain(vertices, first_goes_on, last_goes_on):
     steps = np.diff(vertices, axis=0)
     return Chain(
-        np.asarray(vertices, dtype=float),
+        np.array(vertices, dtype=float),  # a copy that can be written to, as callers have it
         np.hypot(steps[:, 0], steps[:, 1]),
         np.arctan2(steps[:, 1], steps[:, 0]),
         first_goes_on,

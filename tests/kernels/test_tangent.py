@@ -4,6 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import oracles
+from pilotage.geometry import frozen_array
 from pilotage.kernels import tangent
 from pilotage.kernels.segment_correspondence import segment_dissimilarity
 from pilotage.kernels.steps import Steps
@@ -19,7 +20,7 @@ def stretches(draw):
 
 
 def steps(stretch):
-    return Steps(np.concatenate([[0.0], np.cumsum(stretch[0])]), np.array(stretch[1]))
+    return Steps(np.concatenate([[0.0], np.cumsum(stretch[0])]), frozen_array(stretch[1]))
 
 
 def both(kernel, c, d, *arguments):

@@ -60,7 +60,7 @@ def test_a_real_robot_is_followed_as_well_without_its_odometry():
     ends = []
     for is_known in (True, False):
         matcher = ScanMatcher()
-        for reading in open_log(DATA / "bags" / "mac_take_2_bag"):
+        for reading in open_log(DATA / "bags" / "mac_take_2_bag").readings[:200]:
             matcher.update(reading.scan, replace(reading.odometry, is_known=is_known))
         ends.append(matcher.odom_from_base)
 

@@ -10,7 +10,8 @@ from pilotage.cli.terminal import say
 from pilotage.errors import FileError
 
 if TYPE_CHECKING:
-    from pilotage.ranking import Board, Cluster, Processes
+    from pilotage.ranking import Board
+    from pilotage.workers import Cluster, Processes
 
 TRAVEL = 40.0
 """[m] of a log that are looked at, unless it is told otherwise."""
@@ -98,7 +99,7 @@ def sorted_out(files: list[Path]) -> tuple[list[Path], list[Path]]:
 
 def opened(workers: int, scheduler: str | None) -> "Processes | Cluster":
     """Connect to a scheduler if there is one, else use processes."""
-    from pilotage.ranking import Cluster, Processes
+    from pilotage.workers import Cluster, Processes
 
     return Processes(workers) if scheduler is None else Cluster(scheduler)
 

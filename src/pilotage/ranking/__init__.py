@@ -1,7 +1,6 @@
-"""Which of many drawings is of the building that a log was made in, in many processes."""
+"""Which of many drawings is of the building that a log was made in."""
 
 from pilotage.ranking.evidence import Evidence, observe, weigh
 from pilotage.ranking.rank import Board, Score, rank
-from pilotage.ranking.workers import Cluster, Processes, Workers
 
-__all__ = ["Board", "Cluster", "Evidence", "Processes", "Score", "Workers", "observe", "rank", "weigh"]
+__all__ = ["Board", "Evidence", "Score", "observe", "rank", "weigh"]

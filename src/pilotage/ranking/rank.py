@@ -8,7 +8,7 @@ from pilotage.errors import FileError, PilotageError
 from pilotage.localization import LocalizerSettings, Observation
 from pilotage.maps import build_atlas
 from pilotage.ranking.evidence import Evidence, observe, reduced, weigh
-from pilotage.ranking.workers import Workers
+from pilotage.workers import Workers
 
 COARSE = 1 / 8
 """Share of the particles and proposals of the localizer with which all drawings are tried ..."""

@@ -11,6 +11,8 @@ from benchmarks.lib.long_logs import four_formats
 
 from pilotage import FileError, Localizer, LocalizerSettings, open_log, open_map, worlds
 from pilotage.io.estimates import estimate_record
+from pilotage.maps import build_atlas
+from pilotage.ranking.evidence import reduced
 from shared_data import DATA, needs_bags
 
 HALF_TURN = math.sqrt(0.5)
@@ -175,16 +177,17 @@ def test_a_damaged_bag_is_refused_in_one_line_or_read(tmp_path, kind, damage):
 
 @pytest.mark.slow
 def test_the_same_log_gives_the_same_estimates_in_every_format(tmp_path):
+    sketch, settings = open_map(worlds.OFFICE.careful), reduced(LocalizerSettings(), 1 / 20)
+    atlas = build_atlas(sketch, settings.atlas)
+
+    def estimates(log):
+        localizer = Localizer(atlas, settings)
+        return [estimate_record(localizer.update(r.scan, r.odometry), sketch) for r in log]
+
     told = [estimates(open_log(path)) for path in four_formats(tmp_path)]
 
     assert 4 == len(told)
     assert told[0] == told[1] == told[2] == told[3]
-
-
-def estimates(log):
-    sketch = open_map(worlds.OFFICE.careful)
-    localizer = Localizer(sketch, LocalizerSettings(proposals=500))
-    return [estimate_record(localizer.update(r.scan, r.odometry), sketch) for r in log]
 
 
 def test_a_text_log_comes_through_a_pipe(tmp_path):

@@ -5,17 +5,16 @@ from pathlib import Path
 
 import pytest
 
-import ranking_tasks
+import worker_tasks
+from pilotage import workers as workers_module
 from pilotage.errors import PilotageError
-from pilotage.ranking import Cluster, Processes
-from pilotage.ranking import workers as workers_module
-from pilotage.ranking.workers import ClusterError, LostTaskError
+from pilotage.workers import Cluster, ClusterError, LostTaskError, Processes
 
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_each_task_comes_with_its_result(count):
     with Processes(count) as processes:
-        found = list(processes.run(ranking_tasks.square, range(5)))
+        found = list(processes.run(worker_tasks.square, range(5)))
 
     assert [(k, k * k) for k in range(5)] == sorted(found)
 
@@ -24,7 +23,7 @@ def test_each_task_comes_with_its_result(count):
 def test_a_killed_process_loses_no_task(tmp_path):
     markers = [str(tmp_path / name) for name in "abcd"]
     with Processes(2) as processes:
-        found = list(processes.run(ranking_tasks.die_once, markers))
+        found = list(processes.run(worker_tasks.die_once, markers))
 
     assert [(marker, marker) for marker in markers] == sorted(found)
 
@@ -32,7 +31,7 @@ def test_a_killed_process_loses_no_task(tmp_path):
 @pytest.mark.slow
 def test_a_task_that_always_kills_is_given_up_and_takes_no_other_with_it():
     with Processes(2) as processes:
-        found = dict(processes.run(ranking_tasks.die_if_negative, [1, -1, 2, 3]))
+        found = dict(processes.run(worker_tasks.die_if_negative, [1, -1, 2, 3]))
 
     assert isinstance(found.pop(-1), LostTaskError)
     assert {1: 1, 2: 4, 3: 9} == found
@@ -40,7 +39,7 @@ def test_a_task_that_always_kills_is_given_up_and_takes_no_other_with_it():
 
 def test_an_error_that_a_user_can_mend_is_a_result():
     with Processes(1) as processes:
-        found = dict(processes.run(ranking_tasks.fail_if_negative, [2, -1]))
+        found = dict(processes.run(worker_tasks.fail_if_negative, [2, -1]))
 
     assert 4 == found[2]
     assert "numbers must not be negative: -1" == str(found[-1])
@@ -48,7 +47,7 @@ def test_an_error_that_a_user_can_mend_is_a_result():
 
 def test_a_mistake_in_a_task_is_told_and_leaves_the_others_alone():
     with Processes(1) as processes:
-        found = dict(processes.run(ranking_tasks.square, [3, "a"]))
+        found = dict(processes.run(worker_tasks.square, [3, "a"]))
 
     assert 9 == found[3]
     assert "this is a mistake in pilotage (TypeError" in str(found["a"])
@@ -82,14 +81,14 @@ def test_a_killed_worker_of_a_cluster_loses_no_task(tmp_path, monkeypatch):
     pytest.importorskip("distributed")
     from benchmarks.which import local_cluster
 
-    monkeypatch.setenv("PYTHONPATH", str(Path(ranking_tasks.__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", str(Path(worker_tasks.__file__).parent))
 
     markers = [str(tmp_path / name) for name in "abcd"]
     for marker in markers[1:]:
         Path(marker).touch()  # only the first one kills
     with local_cluster() as (address, _), connected(address) as cluster:
-        found = dict(cluster.run(ranking_tasks.die_once, markers))
-        failed = dict(cluster.run(ranking_tasks.fail_if_negative, [2, -1]))
+        found = dict(cluster.run(worker_tasks.die_once, markers))
+        failed = dict(cluster.run(worker_tasks.fail_if_negative, [2, -1]))
 
     assert {marker: marker for marker in markers} == found
     assert 4 == failed[2]
@@ -106,4 +105,4 @@ def test_a_worker_that_lacks_what_it_needs_is_told():
         connected(address) as cluster,
         pytest.raises(ClusterError, match="lacks pilotage"),
     ):
-        list(cluster.run(ranking_tasks.square, [1]))  # workers do not see the tests
+        list(cluster.run(worker_tasks.square, [1]))  # workers do not see the tests
