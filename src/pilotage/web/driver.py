@@ -3,12 +3,13 @@
 import json
 import time
 from collections.abc import Mapping, Sequence
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from pilotage.drives import Drive
 from pilotage.errors import PilotageError
 from pilotage.navigation import Step
+from pilotage.web.bending import Bending
 from pilotage.web.corrected import corrected_svg
 from pilotage.web.fate import FATES
 from pilotage.web.marks import changes
@@ -58,6 +59,9 @@ class Driver:
         self._before: Step | None = None
         self._marks: list[dict[str, object]] = []
         self._over = False
+        self._bending: Bending | None = None
+        if isinstance(show, Stage | Replay):
+            self._bending = Bending(show.navigator.planner.atlas, show.sightings, connection)
         self._due = self._frame_due = self._told_at = 0.0  # [s] on the clock
         self._shown_t = -RECORD_EVERY  # [s] of the drive
 
@@ -68,13 +72,22 @@ class Driver:
         self._step()
         self._tell()
         while True:
-            wait = None if self._stands else max(self._due - time.monotonic(), 0.0)
-            while self._connection.poll(wait):
-                self._obey(self._connection.recv())
-                wait = 0.0
+            self._listen(None if self._stands else max(self._due - time.monotonic(), 0.0))
             if not self._stands and time.monotonic() >= self._due:
                 self._step()
                 self._pace()
+
+    def _listen(self, longest: float | None) -> None:
+        """Obey the page, and pass on how the drawing was corrected, as they come; wait for the first [s]."""
+        bending = self._bending
+        while ready := wait([self._connection, *([] if bending is None else bending.pipes)], longest):
+            if self._connection in ready:
+                self._obey(self._connection.recv())
+            elif bending is not None:
+                if (corrected := bending.result()) is not None:
+                    self._send("corrected", {"t": round(self._show.stamp, 2), **corrected})
+                bending.begin_if_due(is_over=self._over)
+            longest = 0.0
 
     def _introduce(self) -> None:
         """Say what this drive is about."""
@@ -125,6 +138,8 @@ class Driver:
             self._finish(step.outcome.value, step.reason)
         elif self._show.is_over:
             self._finish("over", "the recording ends here")
+        if self._bending is not None:
+            self._bending.begin_if_due(is_over=self._over)
 
     def _send_frame(self) -> None:
         """Send a frame, as text: the server passes it on unread."""

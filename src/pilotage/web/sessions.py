@@ -17,7 +17,7 @@ from pilotage.web.order import Order
 from pilotage.web.work import drive
 from pilotage.web.workers import WorkerError, start
 
-TOLD_FIRST = ("session", "world", "marks", "state", "frame", "done", "error")
+TOLD_FIRST = ("session", "world", "marks", "state", "corrected", "frame", "done", "error")
 """Order in which a client gets what waits for it."""
 MOST_UNSEEN = 3
 """Frames that a client gets before it has seen the first of them."""

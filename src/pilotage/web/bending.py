@@ -1,0 +1,116 @@
+"""The drawing corrected while the robot drives: fitted in a process beside the drive, every few metres."""
+
+import multiprocessing
+import os
+import sys
+import time
+from collections.abc import Callable, Sequence
+from multiprocessing.connection import Connection
+
+import numpy as np
+
+from pilotage.correction import CorrectedDrawing, NothingBelievedError, Sighting, correct_drawing
+from pilotage.geometry import Polyline, fit_similarity
+from pilotage.maps import Atlas, SchematicMap
+from pilotage.web.drawings import Json, Page
+
+SIGHTINGS = 6
+"""New sightings until the drawing is corrected again: 3 m of travel."""
+REST = 10.0
+"""Pause after a fit, in times that it took: fits use less than a tenth of a processor."""
+POLITE = 10
+"""Added to the niceness of a fit, so that the drive goes first."""
+
+Work = Callable[[], Json | None]
+
+
+class Bending:
+    """Corrects the drawing of a drive beside it, and no more often than it can afford."""
+
+    def __init__(self, atlas: Atlas, sightings: Sequence[Sighting], inherited: Connection) -> None:
+        self._atlas, self._sightings = atlas, sightings
+        self._inherited = inherited  # the drive's own connection, which a fit must not keep open
+        self._used = 0  # sightings of the last fit
+        self._began = self._rests_until = 0.0  # [s] on the clock
+        self._process = 0
+        self._pipe: Connection | None = None
+
+    @property
+    def pipes(self) -> list[Connection]:
+        """Where the result will be heard, while there is a fit."""
+        return [] if self._pipe is None else [self._pipe]
+
+    def begin_if_due(self, *, is_over: bool) -> None:
+        """Begin a fit after some travel and some rest; when the drive is over, after any travel at all."""
+        if sys.platform == "win32" or self._pipe is not None:  # Windows cannot fork
+            return
+        self._used = min(self._used, len(self._sightings))  # a robot that was carried begins anew
+        fresh, now = len(self._sightings) - self._used, time.monotonic()
+        if fresh > 0 and (is_over or (fresh >= SIGHTINGS and now >= self._rests_until)):
+            self._used, self._began = len(self._sightings), now
+            self._process, self._pipe = forked(self._work(self._sightings[: self._used]), self._inherited)
+
+    def result(self) -> Json | None:
+        """Return what a fit has found, once its pipe is ready; None if the robot was not sure enough."""
+        assert self._pipe is not None
+        try:
+            found: Json | None = self._pipe.recv()
+        except EOFError:
+            found = None  # it failed; the last one stands
+        self._pipe.close()
+        self._pipe = None
+        os.waitpid(self._process, 0)
+        now = time.monotonic()
+        self._rests_until = now + REST * (now - self._began)
+        return found
+
+    def _work(self, sightings: Sequence[Sighting]) -> Work:
+        """Return the fit that is to be made."""
+
+        def work() -> Json | None:
+            try:
+                return describe_corrected(correct_drawing(self._atlas, sightings), self._atlas.sketch)
+            except NothingBelievedError:
+                return None
+
+        return work
+
+
+def forked(work: Work, inherited: Connection) -> tuple[int, Connection]:
+    """Do some work in a copy of this process; return its id and where its result will be heard."""
+    here, there = multiprocessing.Pipe(duplex=False)
+    process = os.fork()
+    if process == 0:
+        try:
+            inherited.close()
+            here.close()
+            os.nice(POLITE)
+            there.send(work())
+        finally:
+            os._exit(0)
+    there.close()
+    return process, here
+
+
+def describe_corrected(corrected: CorrectedDrawing, sketch: SchematicMap) -> Json:
+    """Lay a corrected drawing over the drawn one, as well as a similarity can, in the axes of the page."""
+    page = Page(sketch)
+    vertices = np.vstack([stroke.vertices for stroke in sketch.strokes])
+    sketch_from_metres = fit_similarity(corrected.metres_from_sketch @ vertices, vertices)
+
+    def lines(all_of: tuple[Polyline, ...]) -> list[list[list[float]]]:
+        return [page.points(sketch_from_metres @ one.vertices) for one in all_of]
+
+    return {
+        "seen": lines(corrected.seen),
+        "unseen": lines(corrected.unseen),
+        "passages": [
+            {
+                "gateway": one.gateway_id,
+                "segment": page.points(sketch_from_metres @ one.segment),
+                "state": one.state.value,
+            }
+            for one in corrected.passages
+        ],
+        "seen_share": round(corrected.seen_share, 3),
+    }
