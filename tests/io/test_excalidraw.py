@@ -85,6 +85,16 @@ def test_groups_and_frames_are_kept(tmp_path):
     assert len(inner.groups) == 2
 
 
+def test_a_role_that_the_drawing_table_wrote_is_a_name(tmp_path):
+    measure, zone = read(
+        tmp_path,
+        element("line", points=[[0, 0], [40, 0]], customData={"role": "measure", "metres": 3}),
+        element("rectangle", customData={"role": "keep-out"}),
+    ).marks
+    assert measure.names == ("ignore",)
+    assert zone.names == ("keep-out",)
+
+
 def test_what_is_not_seen_is_not_there(tmp_path):
     sheet = read(
         tmp_path,

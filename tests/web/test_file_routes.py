@@ -106,6 +106,25 @@ def test_an_upload_becomes_a_drawing_under_a_free_name_and_is_not_stored(
     assert ["flat.svg"] == [path.name for path in folder.iterdir()]
 
 
+def test_zones_are_understood_and_kept_in_an_upload(client: TestClient) -> None:
+    zones = (
+        '<rect class="keep-out" x="20" y="20" width="10" height="8"/><path class="one-way" d="M90 35 H110"/>'
+        '<circle class="slow" cx="150" cy="90" r="8"/></svg>'
+    )
+    sent = FLAT.replace("</svg>", zones)
+    told = client.post("/api/understand", content=sent, headers=SVG).json()["zones"]
+    kept = client.post("/api/uploads?name=zoned.svg", content=sent).json()
+
+    assert [1, 1, 1] == [len(told[kind]) for kind in ("keep-out", "slow", "one-way")]
+    assert [[20, 20], [20, 28], [30, 20], [30, 28]] == sorted(told["keep-out"][0])
+    assert [[90, 35], [110, 35]] == told["one-way"][0]
+    assert (
+        told
+        == kept["zones"]
+        == client.post("/api/understand", content=kept["svg"], headers=SVG).json()["zones"]
+    )
+
+
 @pytest.mark.parametrize(
     ("name", "content", "status"),
     [

@@ -66,7 +66,10 @@ def read_element(
     numbers = tuple(
         groups[name] if name in groups else groups.setdefault(name, builder.new_group()) for name in ids
     )
-    names = (frames.get(words(element.get("frameId")), ""), "arrow" if kind == "arrow" else "")
+    told = element.get("customData")
+    role = words(told.get("role")) if isinstance(told, dict) else ""  # as the drawing table writes it
+    role = "ignore" if role == "measure" else role
+    names = (frames.get(words(element.get("frameId")), ""), "arrow" if kind == "arrow" else "", role)
     source = f"{kind} {words(element.get('id'))}".strip()
     if kind == "text":
         if opacity > 0.0:

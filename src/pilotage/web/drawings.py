@@ -11,6 +11,7 @@ import numpy as np
 
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Array, Polyline
+from pilotage.interpretation import Role
 from pilotage.maps import SchematicMap
 from pilotage.web.order import Sent
 
@@ -27,6 +28,10 @@ STROKE = 1.0 / 400.0
 """Width of the strokes of a drawing that was made of an upload, as a share of its diagonal."""
 LETTERS = 6.0
 """Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
+
+
+ZONES = (Role.KEEP_OUT.value, Role.SLOW.value, Role.ONE_WAY.value)
+"""Names of the kinds of zones, in their order."""
 
 
 class UnreadableError(PilotageError):
@@ -100,6 +105,10 @@ def describe_drawing(sketch: SchematicMap) -> Json:
             {"points": page.points(stroke.vertices), "closed": stroke.closed} for stroke in sketch.strokes
         ],
         "labels": labels_of(sketch),
+        "zones": {
+            name: [page.points(line.vertices) for line in lines]
+            for name, lines in zip(ZONES, sketch.zones.lines, strict=True)
+        },
         "start": page.point(sketch.start),
         "goal": page.point(sketch.goal),
     }
@@ -142,6 +151,11 @@ def svg_of(sketch: SchematicMap) -> str:
     if sketch.solids:
         rings = " ".join(path_of(page, ring) for ring in sketch.solids)
         lines.append(f'<path class="wall" fill="#1b1b1f" fill-rule="evenodd" stroke="none" d="{rings}"/>')
+    lines += [
+        f'<path class="{name}" stroke="gray" d="{path_of(page, line)}"/>'
+        for name, zone_lines in zip(ZONES, sketch.zones.lines, strict=True)
+        for line in zone_lines
+    ]
     lines.append(f'</g><g font-size="{LETTERS * width:g}" text-anchor="middle">')
     lines += [
         f'<text x="{label["x"]}" y="{label["y"]}">{escape(str(label["text"]))}</text>'

@@ -7,7 +7,7 @@ import numpy as np
 from pilotage.config import Settings
 from pilotage.findings import Finding, Severity, report
 from pilotage.maps import CellGraph, RouteError, SchematicMap, check_place, find_labeled, find_route
-from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, labels_of, read_sent
+from pilotage.web.drawings import ZONES, Json, Page, UnreadableError, describe_drawing, labels_of, read_sent
 from pilotage.web.order import Place, Sent
 
 
@@ -46,6 +46,7 @@ NOTHING: Json = {
     "cells": [],
     "gateways": [],
     "labels": [],
+    "zones": {name: [] for name in ZONES},
     "assumed": [],
     "start": None,
     "goal": None,
