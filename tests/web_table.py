@@ -28,6 +28,18 @@ CLOSED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="
 """Three rooms, one of them without a door."""
 
 
+def dxf(lines: list[tuple[float, float, float, float]]) -> str:
+    """Write lines as the entities of a DXF file."""
+    entities = "".join(
+        f"0\nLINE\n8\nwalls\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n" for x1, y1, x2, y2 in lines
+    )
+    return f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+
+
+TWO_ROOMS = dxf([(0, 0, 8, 0), (8, 0, 8, 5), (8, 5, 0, 5), (0, 5, 0, 0), (4, 0, 4, 2), (4, 3, 4, 5)])
+"""Two rooms with a door, as DXF: y up."""
+
+
 class Talk:
     """A websocket to the server, whose messages can be waited for by kind; those of other kinds are kept."""
 

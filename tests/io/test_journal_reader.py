@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from pilotage.errors import FileError
 from pilotage.io.estimates import estimates_file
 from pilotage.io.journal import journal_file, step_record
 from pilotage.io.journal_reader import read_journal
+from pilotage.navigation import Outcome, Visit
 
 DRIVE = through_the_door()
 PLACE = {"cell": "a", "x": 0, "y": 0, "heading": 0, "scale": 1, "probability": 1}
@@ -37,6 +39,18 @@ def test_what_was_written_is_read(journal):
         assert scene.collisions == moment.collisions
 
 
+def test_the_goals_of_a_tour_that_are_over_are_read(tmp_path):
+    path = tmp_path / "tour.jsonl"
+    visits = (
+        Visit("kitchen", Outcome.REACHED, 12.0, "'kitchen' is reached"),
+        Visit((3.0, -4.5), Outcome.GAVE_UP, 40.0, "no way leads there"),
+    )
+    with journal_file(path, SKETCH) as write:
+        write(replace(DRIVE.steps[0], visits=visits), DRIVE.scenes[0])
+
+    assert visits == read_journal(path, SKETCH)[0].step.visits
+
+
 def test_a_file_of_estimates_is_a_journal_of_a_robot_that_stands(tmp_path):
     path = tmp_path / "estimates.jsonl"
     with estimates_file(path, SKETCH) as write:
@@ -58,6 +72,8 @@ def test_a_file_of_estimates_is_a_journal_of_a_robot_that_stands(tmp_path):
         {"hypotheses": [{**PLACE, "scale": 0}]},
         {"hypotheses": [{"cell": "a"}]},
         {"behavior": "dance"},
+        {"goals": [{"goal": "kitchen", "outcome": "happy", "stamp": 1}]},
+        {"goals": [{"goal": [1], "outcome": "reached", "stamp": 1}]},
         {"behavior": []},
         {"command": 3},
         {"distance": "far"},

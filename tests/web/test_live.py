@@ -3,14 +3,19 @@
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 from starlette.testclient import TestClient
 
+from pilotage.drives import drive, set_out
+from pilotage.io import open_map
+from pilotage.io.journal import journal_file
+from pilotage.simulation import World
 from pilotage.web.table import Table
-from web_table import CLOSED, CONTENT, FLAT, LIVE, Talk
+from web_table import CLOSED, CONTENT, FLAT, LIVE, TWO_ROOMS, Talk
 
 SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
@@ -28,6 +33,7 @@ def test_a_drive_made_real_is_seen_from_its_start_to_its_goal(client: TestClient
     with talking(client) as talk:
         session, world, frame = talk.start(), talk.hear("world"), talk.hear("frame")
         done = talk.hear("done")
+        corrected = talk.hear_until("corrected", lambda one: one["seen_share"] > 0.5)
 
     assert "reached" == done["outcome"]
     assert "store" == session["goal"]
@@ -39,6 +45,7 @@ def test_a_drive_made_real_is_seen_from_its_start_to_its_goal(client: TestClient
     assert top < y < bottom
     (listed,) = client.get("/api/sessions").json()["sessions"]
     assert (True, "reached") == (listed["over"], listed["outcome"])
+    assert {"open"} == {one["state"] for one in corrected["passages"]} - {"unseen"}
     check_record(client, session["session"])
 
 
@@ -257,6 +264,26 @@ def test_any_moment_of_a_journal_is_shown_as_it_was(client: TestClient) -> None:
         talk.hear_until("frame", lambda frame: frame["t"] > 1.5)
         talk.say("kidnap", x=0, y=0)
         assert "only be watched" in talk.hear("error")["text"]
+
+
+def test_a_journal_of_a_plan_from_cad_is_shown_on_it(client: TestClient, tmp_path: Path) -> None:
+    plan, journal = tmp_path / "plan.dxf", tmp_path / "journal.jsonl"
+    plan.write_text(TWO_ROOMS)
+    sketch = open_map(plan)
+    navigator, simulator = set_out(sketch, World.of(sketch), (6.5, 4.0))
+    with journal_file(journal, sketch) as write:
+        for instant in islice(drive(navigator, simulator), 10):
+            write(instant.step, instant.scene)
+    last = json.loads(journal.read_text().splitlines()[-1])
+    drawing = client.post("/api/uploads?name=plan.dxf", content=TWO_ROOMS).json()["svg"]
+    kept = client.post("/api/recordings?name=journal.jsonl", content=journal.read_text()).json()
+    with talking(client) as talk:
+        content = {"media": "image/svg+xml", "text": drawing}
+        talk.say("start", content=content, recording=kept["id"], speed=100)
+        talk.hear("done")
+        way = talk.hear("session")["way"]
+
+    assert [last["x"], -last["y"]] == pytest.approx(way[-1]["believed"], abs=0.01)
 
 
 def test_a_journal_of_a_named_world_shows_its_walls(client: TestClient, folder: Path) -> None:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from pilotage.errors import FileError, shown
 from pilotage.geometry import Affine2, Pose2, Twist
-from pilotage.io.json_files import number, objects, words
+from pilotage.io.json_files import items, number, objects, words
 from pilotage.io.records import Record, read_records
 from pilotage.localization import Estimate, PoseHypothesis, Status
 from pilotage.maps import SchematicMap
-from pilotage.navigation import Behavior, Outcome, Step
+from pilotage.navigation import Behavior, Outcome, Step, Visit
 
 LARGEST = 1e9
 """Larger coordinates, times and scales are taken for damage."""
@@ -70,11 +70,21 @@ def recorded(record: Record, sketch: SchematicMap) -> Recorded:
         times_lost=int(number(record.get("times_lost"))),
         outcome=None if outcome is None else Outcome(outcome),
         reason=words(record.get("reason")),
+        visits=tuple(map(visit, objects(record.get("goals")))),
     )
     if truth is None:
         return Recorded(step)
     pose = Pose2(*(limited(truth[name]) for name in ("x", "y", "heading")))
     return Recorded(step, pose, int(number(truth.get("collisions"))))
+
+
+def visit(record: Record) -> Visit:
+    """Take how the drive to one goal of a tour ended."""
+    goal = record["goal"]
+    if not isinstance(goal, str):
+        x, y = map(limited, items(goal))
+        goal = x, y
+    return Visit(goal, Outcome(record["outcome"]), limited(record["stamp"]), words(record.get("reason")))
 
 
 def hypothesis(record: Record, sketch: SchematicMap) -> PoseHypothesis:

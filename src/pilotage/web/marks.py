@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pilotage.localization import Status
 from pilotage.maps import CellGraph
 from pilotage.navigation import Outcome, Step
+from pilotage.navigation.tour import name_of as goal_in_words
 from pilotage.web.words import name_of
 
 
@@ -22,6 +23,13 @@ def changes(before: Step | None, now: Step, graph: CellGraph) -> Iterator[tuple[
     for gateway_id in now.closed_gateway_ids:
         if gateway_id not in old:
             yield "blocked", f"found no way through {gateway_id}"
+    over = len(before.visits) if before is not None else 0
+    for visit in now.visits[over:] if len(now.visits) > 1 or now.outcome is None else ():
+        yield kind_of(visit.outcome), f"{goal_in_words(visit.goal)}: {visit.reason or visit.outcome.value}"
     if now.outcome is not None:
-        kind = "reached" if now.outcome is Outcome.REACHED else "gave up"
-        yield kind, now.reason or now.outcome.value
+        yield kind_of(now.outcome), now.reason or now.outcome.value
+
+
+def kind_of(outcome: Outcome) -> str:
+    """Return the kind of the mark at the end of a drive."""
+    return "reached" if outcome is Outcome.REACHED else "gave up"

@@ -1,15 +1,16 @@
 """The stage of a journal: all of it is known beforehand, so that any moment can be shown at once."""
 
 import bisect
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pilotage.config import Settings
 from pilotage.errors import FileError
 from pilotage.io import open_world
 from pilotage.io.journal_reader import Recorded, read_journal
 from pilotage.localization import Status
-from pilotage.maps import Atlas, CellGraph
+from pilotage.maps import Atlas, CellGraph, decompose
 from pilotage.navigation import Step
 from pilotage.simulation import World
 from pilotage.web.drawings import Json, Page, describe_drawing
@@ -111,10 +112,19 @@ class Playback:
 
 
 def playback(atlas: Atlas, page: Page, order: RecordingOrder) -> Playback:
-    """Open a journal; FileError if it cannot be read, or was written about another drawing."""
-    moments = read_journal(order.path, atlas.sketch)
+    """Open a journal; FileError if it cannot be read, or was written about another drawing.
+
+    A plan from CAD is on the page as an SVG file, whose y axis points down: its journal tells y upwards, and
+    names cells by it.
+    """
     graph = graph_of(atlas)
+    moments = read_journal(order.path, atlas.sketch)
     share = share_on(moments, graph)
+    if share < LEAST_ON_IT and atlas.sketch.y_down:
+        upright = replace(atlas.sketch, y_down=False)
+        graph = decompose(upright, Settings().localizer.atlas.decomposition)
+        moments = read_journal(order.path, upright)
+        share = share_on(moments, graph)
     if share < LEAST_ON_IT:
         rule = f"a journal must be of this drawing, but only {share:.0%} of its places are on it"
         raise FileError(rule, order.path)

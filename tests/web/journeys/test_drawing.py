@@ -9,6 +9,7 @@ from playwright.sync_api import Browser, Page, expect
 
 import pilotage
 from web_page import PATIENCE_MS, Sheet, on_a_phone
+from web_table import TWO_ROOMS
 
 pytestmark = pytest.mark.slow
 
@@ -75,6 +76,24 @@ def test_a_door_is_moved_and_widened_by_dragging_it(sheet: Sheet) -> None:
     assert sum(ends) / 2 == pytest.approx(middle, abs=5)
 
 
+def test_zones_are_drawn_and_shown_as_they_are_understood(sheet: Sheet, folder: Path) -> None:
+    page = sheet.page
+    sheet.draw_flat()
+    sheet.tool("keep-out")
+    sheet.drag((620, 180), (720, 230))
+    sheet.tool("slow")
+    sheet.drag((330, 420), (470, 560))
+    sheet.tool("one-way")
+    sheet.drag((530, 280), (610, 280))
+
+    for zone in ("keep-out", "slow", "one-way"):
+        expect(page.locator(f"[data-zone={zone}]")).to_have_count(1, timeout=PATIENCE_MS)
+    expect(sheet.summary).to_contain_text("4 cells, 3 openings")
+    sheet.shot("zones")
+    zones = pilotage.open_map(saved(sheet, folder)).zones
+    assert [1, 1, 1] == [len(lines) for lines in zones.lines]
+
+
 def test_two_clicks_show_the_route_between_them(sheet: Sheet) -> None:
     sheet.draw_flat()
     sheet.tool("Route")
@@ -113,7 +132,7 @@ def test_all_of_it_works_by_keyboard(page: Page, sheet: Sheet) -> None:
 
 def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
     plan = tmp_path / "plan.dxf"
-    plan.write_text(dxf([(0, 0, 8, 0), (8, 0, 8, 5), (8, 5, 0, 5), (0, 5, 0, 0), (4, 0, 4, 2), (4, 3, 4, 5)]))
+    plan.write_text(TWO_ROOMS)
     sheet.page.get_by_test_id("file-input").set_input_files(plan)
 
     expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
@@ -176,11 +195,3 @@ def test_the_page_fits_a_phone(browser: Browser, address: str) -> None:
 
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
     page.context.close()
-
-
-def dxf(lines: list[tuple[float, float, float, float]]) -> str:
-    """Write lines as the entities of a DXF file."""
-    entities = "".join(
-        f"0\nLINE\n8\nwalls\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n" for x1, y1, x2, y2 in lines
-    )
-    return f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
