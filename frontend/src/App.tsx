@@ -8,11 +8,12 @@ import { Dialog, MeasureDialog } from "./Dialog";
 import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
-import { DriveView, type Fate } from "./DriveView";
+import { DriveView } from "./DriveView";
+import type { Fate } from "./fate";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
-import { COLOR, goalOf, newGoal, newMeasure, newStart, roleOf, scaleOf, startOf, type Element } from "./scene";
+import { COLOR, goalOf, newGoal, newMeasure, newStart, PEN, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
@@ -21,8 +22,6 @@ import { useDrive } from "./useDrive";
 import { useOpening } from "./useOpening";
 import { remark, useUnderstanding } from "./useUnderstanding";
 
-type Style = keyof typeof COLOR;
-const STYLES: Style[] = ["wall", "furniture", "ignore"];
 const GOAL_SIZE = 24;
 const START_LENGTH = 50; // of a start arrow that was only clicked [scene units]
 const NOTICE_MS = 6000;
@@ -162,11 +161,14 @@ export function App() {
     if (next !== "none") editor?.setActiveTool({ type: "selection" });
   };
 
+  // A zone is only drawn: what is selected may just be the last wall. Other styles change what is selected, too.
   const setPen = (next: Style) => {
     setStyle(next);
-    const selected = editor?.getAppState().selectedElementIds ?? {};
-    const all = elements().map((one) => (selected[one.id] && ["wall", "furniture", "ignore"].includes(roleOf(one)) ? recolored(one, next) : one));
+    const pen = PEN[next];
+    const selected = pen ? {} : (editor?.getAppState().selectedElementIds ?? {});
+    const all = elements().map((one) => (selected[one.id] && STYLES.some((style) => style === roleOf(one)) ? recolored(one, next) : one));
     editor?.updateScene({ elements: all, appState: { currentItemStrokeColor: COLOR[next] }, captureUpdate: CaptureUpdateAction.IMMEDIATELY });
+    if (pen) editor?.setActiveTool({ type: pen, locked: true });
   };
 
   const mend = (one: Mend) => put(one.kind === "cut" ? cutDoor(elements(), one.segment) : closeGap(elements(), one.segment));
@@ -251,7 +253,7 @@ export function App() {
             ))}
             <hr />
             {STYLES.map((one) => (
-              <button key={one} aria-pressed={style === one} title={`Draw ${one}, or make what is selected ${one}`} onClick={() => setPen(one)}>
+              <button key={one} aria-pressed={style === one} title={STYLE_HINT[one] ?? `Draw ${one}, or make what is selected ${one}`} onClick={() => setPen(one)}>
                 <i className="swatch" style={{ background: COLOR[one] }} />
                 <span>{one}</span>
               </button>
@@ -263,7 +265,7 @@ export function App() {
             <span data-testid="hover">{bottomLine}</span>
           </div>
         </div>
-        {drive && <DriveView drive={drive} fate={fate} send={send} onGoal={(goal) => { send({ type: "goal", goal }); setFate("none"); }} />}
+        {drive && <DriveView drive={drive} fate={fate} setFate={setFate} send={send} />}
       </main>
 
       {drive && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}

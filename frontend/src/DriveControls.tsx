@@ -1,16 +1,10 @@
 // Below a drive: what it is about in words, pause and speed, the fate that one may play, and the timeline.
 import { SPEEDS } from "./DriveSetup";
-import type { Fate } from "./DriveView";
+import { FATES, type Fate } from "./fate";
 import { clock, percent } from "./numbers";
 import { TakeAlong } from "./TakeAlong";
 import type { Drive, Order } from "./useDrive";
 
-const FATES: { fate: Fate; text: string; hint: string }[] = [
-  { fate: "goal", text: "New goal", hint: "click a place on the drawing" },
-  { fate: "door", text: "Door", hint: "click a door in the world to close or open it" },
-  { fate: "box", text: "Box", hint: "click in the world to put a box there" },
-  { fate: "person", text: "Person", hint: "click in the world: someone walks there" },
-];
 const MARK_COLOR: Record<string, string> = {
   found: "#4f9d69", reached: "#4f9d69", lost: "#d1495b", mismatch: "#d1495b", "gave up": "#d1495b", blocked: "#8c4a2f", fate: "#7b6ca8",
 };

@@ -1,27 +1,41 @@
 // A drive, side by side: what the robot believes on the drawing, and the world as it is.
-import { useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
+import { FATES, middleOf, nearestDoor, whereInWorld, whereOnDrawing, type Fate } from "./fate";
+import { correctedNow, describeCorrected, paintCorrected } from "./corrected";
 import { percent } from "./numbers";
-import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
-import { PlanCanvas } from "./PlanCanvas";
+import { COLOR, disc, dots, line, ring, robot, segments, star, words, type Brush } from "./paint";
+import { PlanCanvas, type Aim } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
-import type { Point, Pose, Segment, WayPoint } from "./types";
-
-export type Fate = "none" | "goal" | "door" | "box" | "person";
+import type { Point, Pose, WayPoint } from "./types";
+import { paintZones } from "./zones";
 
 const GRAB_PX = 26; // how near the robot a press takes it up
 const TRAIL_POINTS = 2000;
 const CARRIED = 2.5; // from frame to frame, that no robot drives [m]
 
-export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: Fate; send: (order: Order) => void; onGoal: (at: Point) => void }) {
+interface Props {
+  drive: Drive;
+  fate: Fate;
+  setFate: (fate: Fate) => void;
+  send: (order: Order) => void;
+}
+
+export function DriveView({ drive, fate, setFate, send }: Props) {
+  const [said, setSaid] = useState("");
   const [carried, setCarried] = useState<Point | null>(null);
+  const [wantsCorrected, setWantsCorrected] = useState(true);
   const trail = useTrail(drive);
   const { session, frame, world } = drive;
   const believed = frame?.believed;
   const truth = frame?.world;
+  const known = correctedNow(drive);
+  const corrected = wantsCorrected ? known : null;
   const canCarry = session?.kind === "drive" && !drive.done;
 
   const paintBelieved = (brush: Brush) => {
-    for (const stroke of session?.drawing.strokes ?? []) line(brush, stroke.points, COLOR.ink, 2.2, stroke.closed);
+    for (const stroke of session?.drawing.strokes ?? []) line(brush, stroke.points, corrected ? COLOR.drawn : COLOR.ink, 2.2, stroke.closed);
+    if (corrected) paintCorrected(brush, corrected);
+    paintZones(brush, session?.drawing.zones);
     for (const label of session?.drawing.labels ?? []) words(brush, label.text, [label.x, label.y]);
     if (believed) {
       dots(brush, believed.particles, "rgba(31, 111, 139, .35)", 1.4, 3);
@@ -35,7 +49,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
       });
       if (truth?.on_drawing) {
         brush.context.globalAlpha = 0.6;
-        line(brush, ring(truth.on_drawing, 13 * brush.pixel), COLOR.ink, 1.5, true, [3, 4]);
+        line(brush, ring([truth.on_drawing[0], truth.on_drawing[1]], 13 * brush.pixel), COLOR.ink, 1.5, true, [3, 4]);
         brush.context.globalAlpha = 1;
       }
       robot(brush, believed.pose, believed.status === "located" ? COLOR.accent : "#e79a3c");
@@ -63,23 +77,50 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   };
 
   const press = ([x, y]: Point) => {
-    if (fate === "door") {
-      const nearest = [...(world?.doors ?? [])].sort((a, b) => middleDistance(a.segment, x, y) - middleDistance(b.segment, x, y))[0];
-      send({ type: "door", x, y, closed: !nearest?.closed });
-    } else if (fate === "box") send({ type: "box", x, y });
+    if (fate === "door") send({ type: "door", x, y, closed: !nearestDoor(world, [x, y])?.closed });
+    else if (fate === "carry") send({ type: "kidnap", x, y });
+    else if (fate === "box") send({ type: "box", x, y });
     else if (fate === "person") send({ type: "person", x, y });
   };
 
+  const pressDrawing = (at: Point) => {
+    if (fate !== "goal") return;
+    send({ type: "goal", goal: at });
+    setFate("none");
+  };
+  const chosen = FATES.find((one) => one.fate === fate);
+  const aim = (from: Point, use: (at: Point) => void, where: (at: Point) => string): Aim | undefined =>
+    chosen && { name: chosen.text, from, use, moved: (at) => setSaid(where(at)), leave: () => setFate("none") };
+  const robotAt: Point = truth ? [truth.pose[0], truth.pose[1]] : [0, 0];
+  const door = nearestDoor(world, robotAt);
+  const doorAt = door ? middleOf(door.segment) : robotAt;
+  const believedAt: Point = believed ? [believed.pose[0], believed.pose[1]] : [0, 0];
+
+  // What came of it is said too.
+  const last = drive.marks.at(-1);
+  useEffect(() => setSaid(last?.kind === "fate" ? last.text : ""), [last?.t, last?.text]);
+
   return (
     <div className="side-by-side">
+      <p className="unseen" aria-live="polite" data-testid="said">{said}</p>
       <figure>
-        <figcaption>What it believes</figcaption>
+        <figcaption>
+          What it believes
+          {known && (
+            <label className="check" title="Dashed walls were not seen yet. Doors are green where they were found open, red where closed. Pale is the drawing as it was drawn.">
+              <input type="checkbox" checked={wantsCorrected} onChange={(event) => setWantsCorrected(event.target.checked)} />
+              drawing as found: {describeCorrected(known)}
+            </label>
+          )}
+        </figcaption>
         <PlanCanvas
           testId="believed"
-          label={`The drawing as the robot believes it: ${frame?.text ?? "nothing yet"}`}
+          label={`The drawing as the robot believes it: ${frame?.text ?? "nothing yet"}${corrected ? `; ${describeCorrected(corrected)}` : ""}`}
+          places={{ "data-corrected": corrected ? String(corrected.seen_share) : "" }}
           bounds={session?.drawing.bounds ?? [0, 0, 1, 1]}
           paint={paintBelieved}
-          onPress={(at) => fate === "goal" && onGoal(at)}
+          onPress={pressDrawing}
+          aim={fate === "goal" ? aim(believedAt, pressDrawing, (at) => whereOnDrawing(at, session)) : undefined}
           cursor={fate === "goal" ? "crosshair" : "grab"}
         />
       </figure>
@@ -90,7 +131,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
             testId="world"
             label={`The world as it is, with the robot in it.${canCarry ? " Drag the robot to carry it elsewhere." : ""}`}
             bounds={world.bounds}
-            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-doors": world.doors.map((door) => middle(door.segment)).join(" ") }}
+            places={{ "data-robot": truth ? truth.pose.slice(0, 2).join(",") : "", "data-doors": world.doors.map((door) => middleOf(door.segment).join(",")).join(" ") }}
             paint={paintWorld}
             grabs={(at, pixel) => canCarry && !!truth && Math.hypot(at[0] - truth.pose[0], at[1] - truth.pose[1]) < GRAB_PX * pixel}
             onDrag={(_, to, released) => {
@@ -98,6 +139,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
               if (released) send({ type: "kidnap", x: to[0], y: to[1] });
             }}
             onPress={press}
+            aim={fate !== "none" && fate !== "goal" ? aim(fate === "door" ? doorAt : robotAt, press, (at) => whereInWorld(at, robotAt, fate === "door" ? nearestDoor(world, at) : null)) : undefined}
             cursor={fate === "none" || fate === "goal" ? "grab" : "crosshair"}
           />
         </figure>
@@ -106,11 +148,6 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
   );
 }
 
-const middle = ([x1, y1, x2, y2]: Segment) => `${(x1 + x2) / 2},${(y1 + y2) / 2}`;
-const middleDistance = ([x1, y1, x2, y2]: Segment, x: number, y: number) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
-
-const ring = ([x, y]: Pose, radius: number): Point[] =>
-  Array.from({ length: 24 }, (_, k) => [x + radius * Math.cos((k * Math.PI) / 12), y + radius * Math.sin((k * Math.PI) / 12)]);
 
 function paintBeams({ context }: Brush, [x, y]: Pose, scan: readonly number[]): void {
   context.beginPath();

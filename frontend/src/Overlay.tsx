@@ -1,6 +1,8 @@
 // What is understood, laid over the drawing: cells in soft colors, gateways, the route, and findings at their place.
 import { useState } from "react";
 import { CELLS, COLOR } from "./paint";
+import { COLOR as STYLE } from "./scene";
+import { AREAS, headOf } from "./zones";
 import type { Finding, Mend, Point, Understanding } from "./types";
 
 export interface View {
@@ -35,6 +37,12 @@ export function Overlay({ told, view, hovered, goal, ends, preview, mend }: Prop
         <g transform={`translate(${view.scrollX * view.zoom} ${view.scrollY * view.zoom}) scale(${view.zoom})`}>
           {told?.cells.map((cell) => (
             <path key={cell.id} d={ring(cell.outline) + cell.holes.map(ring).join("")} fillRule="evenodd" fill={colors[cell.id]} fillOpacity={cell.id === hovered ? 0.5 : 0.26} />
+          ))}
+          {told && AREAS.flatMap((kind) => told.zones[kind].map((one, k) => (
+            <path key={kind + k} d={ring(one)} fill={STYLE[kind]} fillOpacity={0.25} stroke={STYLE[kind]} strokeWidth={1.5 * pixel} strokeDasharray={`${6 * pixel} ${4 * pixel}`} data-zone={kind} />
+          )))}
+          {told?.zones["one-way"].map((one, k) => (
+            <polyline key={k} points={[...one, ...headOf(one, 12 * pixel)].join(" ")} fill="none" stroke={STYLE["one-way"]} strokeWidth={3 * pixel} data-zone="one-way" />
           ))}
           {told?.gateways.map(({ id, segment: [a, b] }) => (
             <line key={id} x1={a[0]} y1={a[1]} x2={b[0]} y2={b[1]} stroke={COLOR.gateway} strokeWidth={4 * pixel} strokeLinecap="round" />

@@ -1,10 +1,21 @@
 // A canvas that shows a plan as large as it fits; wheel zooms, two fingers or an empty drag pan. Points come back in plan units.
 import { useEffect, useRef, useState } from "react";
-import type { Brush } from "./paint";
+import { cross, type Brush } from "./paint";
 import type { Point } from "./types";
 
 const AIR = 0.05; // around the plan, as a share of its size
 const LARGEST_ZOOM = 12;
+
+const STEP_PX = 10; // of the keyboard's marker
+
+/** What the keyboard does on the plan: arrow keys move a marker, Enter uses it, Escape leaves. */
+export interface Aim {
+  name: string;
+  from: Point; // where the marker begins
+  use: (at: Point) => void;
+  moved: (at: Point) => void;
+  leave: () => void;
+}
 
 interface Props {
   bounds: [number, number, number, number];
@@ -15,13 +26,16 @@ interface Props {
   onPress?: (at: Point) => void;
   cursor?: string;
   places?: Record<string, string>; // told as attributes, for tests
+  aim?: Aim | undefined;
   testId: string;
 }
 
-export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, cursor, places, testId }: Props) {
+export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, cursor, places, aim, testId }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [size, setSize] = useState<[number, number]>([0, 0]);
   const [view, setView] = useState({ zoom: 1, x: 0, y: 0 });
+  const [marker, setMarker] = useState<Point | null>(null);
+  const aimedAt = useRef<Point>([0, 0]); // before the first key; the marker is not shown yet
   const gesture = useRef<{ from: Point; screen: Point; mine: boolean; moved: boolean } | null>(null);
 
   useEffect(() => {
@@ -29,6 +43,17 @@ export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, curso
     watcher.observe(canvas.current!);
     return () => watcher.disconnect();
   }, []);
+
+  // Keys go to the plan as long as something is aimed at, and then back to where they went before.
+  useEffect(() => {
+    setMarker(null);
+    if (!aim) return;
+    const before = document.activeElement as HTMLElement | null;
+    aimedAt.current = aim.from;
+    canvas.current!.focus();
+    aim.moved(aim.from);
+    return () => before?.focus();
+  }, [aim?.name]);
 
   const [left, top, right, bottom] = bounds;
   const fit = Math.min(size[0] / ((right - left) * (1 + 2 * AIR) || 1), size[1] / ((bottom - top) * (1 + 2 * AIR) || 1)) || 1;
@@ -46,6 +71,7 @@ export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, curso
     context.clearRect(0, 0, width, height);
     context.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * shift[0], ratio * shift[1]);
     paint({ context, pixel: 1 / scale });
+    if (marker) cross({ context, pixel: 1 / scale }, marker);
   });
 
   useEffect(() => {
@@ -70,20 +96,37 @@ export function PlanCanvas({ bounds, paint, label, grabs, onDrag, onPress, curso
     return { plan: [(screen[0] - shift[0]) / scale, (screen[1] - shift[1]) / scale], screen };
   };
 
+  const onKey = (event: React.KeyboardEvent) => {
+    if (!aim) return;
+    if (event.key === "Escape") return aim.leave();
+    const [x, y] = marker ?? aimedAt.current;
+    const step = ((event.shiftKey ? 5 : 1) * STEP_PX) / scale;
+    const moved: Record<string, Point> = { ArrowLeft: [x - step, y], ArrowRight: [x + step, y], ArrowUp: [x, y - step], ArrowDown: [x, y + step] };
+    const next = moved[event.key] ?? [x, y];
+    if (!moved[event.key] && event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    setMarker(next);
+    if (moved[event.key]) aim.moved(next);
+    else aim.use(next);
+  };
+
   return (
     <canvas
       ref={canvas}
       className="plan"
-      role="img"
-      aria-label={label}
+      role={aim ? "application" : "img"}
+      tabIndex={aim ? 0 : undefined}
+      aria-label={aim ? `${aim.name}: arrow keys move the marker, Enter uses it, Escape leaves. ${label}` : label}
       data-testid={testId}
       data-scale={scale}
       data-shift={shift.join(",")}
       {...places}
       style={{ cursor }}
+      onKeyDown={onKey}
       onPointerDown={(event) => {
         const { plan, screen } = at(event);
         event.currentTarget.setPointerCapture(event.pointerId);
+        setMarker(null);
         gesture.current = { from: plan, screen, mine: !!grabs?.(plan, 1 / scale), moved: false };
       }}
       onPointerMove={(event) => {

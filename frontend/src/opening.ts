@@ -2,9 +2,9 @@
 import { restoreElements } from "@excalidraw/excalidraw";
 import type { BinaryFileData, BinaryFiles } from "@excalidraw/excalidraw/types";
 import { upload } from "./api";
-import { newGoal, newPicture, newStart, newStroke, newText, type Element } from "./scene";
+import { newGoal, newPicture, newStart, newStroke, newText, COLOR, type Element } from "./scene";
 import { sceneIn, type Scene } from "./svg";
-import type { Point, Upload } from "./types";
+import { ZONES, type Point, type Upload } from "./types";
 
 const SIZE = 1000; // longer side of a drawing that comes from elsewhere [scene units]
 const LARGEST_PICTURE = 1600; // longer side of a photo that is kept under the drawing [px]
@@ -12,19 +12,20 @@ const CORNER: Point = [120, 90]; // where it is put
 const PICTURE = /^image\/(png|jpe?g|webp)$/;
 
 export interface Opened extends Scene {
+  svg: string | null; // the drawing as the server read it, in the units of its file; null if it was the table's own
   notes: string[];
 }
 
 export async function openContent(name: string, content: Blob): Promise<Opened> {
   const isText = /\.(svg|excalidraw|json)$/i.test(name);
   const scene = isText ? sceneIn(await content.text()) : null;
-  if (scene) return { elements: restoreElements(scene.elements, null), files: scene.files, notes: [] };
+  if (scene) return { elements: restoreElements(scene.elements, null), files: scene.files, svg: null, notes: [] };
   const read = await upload(name, content);
   const opened = elementsOf(read);
   if (!PICTURE.test(content.type)) return opened;
   const picture = await pictureUnder(content, read).catch(() => null);
   return picture
-    ? { elements: [picture.element, ...opened.elements], files: picture.files, notes: [...opened.notes, "the picture lies under the drawing"] }
+    ? { ...opened, elements: [picture.element, ...opened.elements], files: picture.files, notes: [...opened.notes, "the picture lies under the drawing"] }
     : opened;
 }
 
@@ -36,10 +37,12 @@ function placing({ bounds: [left, top, right, bottom] }: Upload) {
 function elementsOf(read: Upload): Opened {
   const { at } = placing(read);
   const strokes = read.strokes.map(({ points, closed }) => newStroke((closed ? [...points, points[0]!] : points).map(at)));
+  const zones = ZONES.flatMap((kind) => read.zones[kind].map((points) =>
+    newStroke((kind === "one-way" ? points : [...points, points[0]!]).map(at), { strokeColor: COLOR[kind] }, kind === "one-way" ? "arrow" : "line")));
   const labels = read.labels.map(({ text, x, y }) => newText(text, at([x, y]), 20));
   const goal = read.goal ? [newGoal(at(read.goal), 24)] : [];
   const start = read.start ? [newStart(at(read.start), [at(read.start)[0] + 40, at(read.start)[1]])] : [];
-  return { elements: [...strokes, ...labels, ...start, ...goal] as Element[], files: {}, notes: read.notes };
+  return { elements: [...strokes, ...zones, ...labels, ...start, ...goal] as Element[], files: {}, svg: read.svg, notes: read.notes };
 }
 
 async function pictureUnder(content: Blob, read: Upload): Promise<{ element: Element; files: BinaryFiles }> {

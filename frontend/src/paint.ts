@@ -11,6 +11,8 @@ export const COLOR = {
   goal: "#e0a100",
   gateway: "#4f9d69",
   door: "#8c4a2f",
+  shut: "#b02a37",
+  drawn: "#c3c9d1",
   person: "#7b6ca8",
   glass: "#7cc4dc",
   beam: "rgba(124, 196, 220, .22)",
@@ -78,6 +80,17 @@ export function robot({ context, pixel }: Brush, [x, y, heading]: Pose, color: s
   context.stroke();
   context.globalAlpha = 1;
 }
+
+/** The marker of the keyboard. */
+export function cross(brush: Brush, [x, y]: Point, size = 14): void {
+  const arm = size * brush.pixel;
+  line(brush, ring([x, y], 0.6 * arm), COLOR.accent, 2, true);
+  line(brush, [[x - arm, y], [x + arm, y]], COLOR.accent, 2);
+  line(brush, [[x, y - arm], [x, y + arm]], COLOR.accent, 2);
+}
+
+export const ring = ([x, y]: Point, radius: number): Point[] =>
+  Array.from({ length: 24 }, (_, k) => [x + radius * Math.cos((k * Math.PI) / 12), y + radius * Math.sin((k * Math.PI) / 12)]);
 
 export function star({ context, pixel }: Brush, [x, y]: Point, radius = 11): void {
   context.beginPath();

@@ -1,20 +1,32 @@
 // Elements of the editor as marks of a drawing: their role, their centre line, and new ones from points.
 import { restoreElements } from "@excalidraw/excalidraw";
 import type { ExcalidrawElement } from "@excalidraw/excalidraw/element/types";
-import type { Point, Pose } from "./types";
+import type { Point, Pose, Zones } from "./types";
 
 export type Element = ExcalidrawElement;
-export type Role = "wall" | "furniture" | "ignore" | "goal" | "start" | "measure";
+export type Style = "wall" | "furniture" | "ignore" | keyof Zones;
+export type Role = Style | "goal" | "start" | "measure";
 
 export const INK = "#20262e";
 export const GOAL = "#e0a100";
 export const TRAIL = "#1f6f8b";
 
 /** The color of a stroke tells its role, so that a person sees it and the editor's pen carries it on. */
-export const COLOR: Record<"wall" | "furniture" | "ignore", string> = {
+export const COLOR: Record<Style, string> = {
   wall: INK,
   furniture: "#b58a5a",
   ignore: "#b9bfc8",
+  "keep-out": "#d9485f",
+  slow: "#d98a1f",
+  "one-way": "#7a5fc0",
+};
+export const STYLES = Object.keys(COLOR) as Style[];
+/** The pen of the editor with which a style is drawn; the present one where none is named. */
+export const PEN: Partial<Record<Style, "rectangle" | "arrow">> = { "keep-out": "rectangle", slow: "rectangle", "one-way": "arrow" };
+export const STYLE_HINT: Partial<Record<Style, string>> = {
+  "keep-out": "Outline where the robot must not drive",
+  slow: "Outline where the robot drives slowly",
+  "one-way": "Draw an arrow through a door: it is passed only this way",
 };
 
 const CHORDS = 8; // that a curve is cut into between two points
@@ -24,9 +36,10 @@ const ROUND_LARGEST = 32;
 export function roleOf(element: Element): Role {
   const told = element.customData?.role as Role | undefined;
   if (told === "goal" || told === "start" || told === "measure") return told;
-  if (element.strokeColor === COLOR.furniture) return "furniture";
-  if (element.strokeColor === COLOR.ignore || element.type === "image") return "ignore";
-  if (told === "furniture" || told === "ignore") return told;
+  if (element.type === "image") return "ignore";
+  const colored = STYLES.find((style) => style !== "wall" && element.strokeColor === COLOR[style] && (isStroke(element) || !PEN[style]));
+  if (colored) return colored;
+  if (told && told !== "wall") return told;
   return element.type === "arrow" || element.type === "frame" ? "ignore" : "wall";
 }
 

@@ -8,11 +8,16 @@ export interface Stroke {
   closed: boolean;
 }
 
+export const ZONES = ["keep-out", "slow", "one-way"] as const;
+/** Where the robot shall not drive, areas in which it drives slowly, and arrows across doors that it passes only this way. */
+export type Zones = Record<(typeof ZONES)[number], Point[][]>;
+
 export interface Upload {
   name: string;
   svg: string;
   strokes: Stroke[];
   labels: { text: string; x: number; y: number }[];
+  zones: Zones;
   bounds: [number, number, number, number];
   start: Point | null;
   goal: Point | null;
@@ -49,6 +54,7 @@ export interface Understanding {
   cells: Cell[];
   gateways: { id: string; cells: [string, string]; segment: [Point, Point] }[];
   labels: { text: string; x: number; y: number; cell: string }[];
+  zones: Zones;
   start: Point | null;
   goal: Point | null;
   findings: Finding[];
@@ -102,6 +108,15 @@ export interface Frame {
   } | null;
 }
 
+/** The drawing as the robot has found it until now, laid over the drawn one. */
+export interface Corrected {
+  t: number;
+  seen: Point[][];
+  unseen: Point[][];
+  passages: { gateway: string; segment: [Point, Point]; state: "open" | "closed" | "unseen" }[];
+  seen_share: number;
+}
+
 export interface Mark {
   t: number;
   kind: string;
@@ -120,7 +135,7 @@ export interface Session {
   session: string;
   kind: "drive" | "log" | "journal";
   title: string;
-  drawing: { bounds: [number, number, number, number]; strokes: Stroke[]; labels: Upload["labels"]; goal: Point | null };
+  drawing: { bounds: [number, number, number, number]; strokes: Stroke[]; labels: Upload["labels"]; zones: Zones; goal: Point | null };
   way?: WayPoint[]; // of a journal
   speed: number;
   paused: boolean;

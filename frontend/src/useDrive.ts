@@ -1,12 +1,13 @@
 // One drive over a websocket: what the server told last, and how to tell it something. Reconnects and resumes by itself.
 import { useCallback, useEffect, useRef, useState } from "react";
-import type { Frame, Mark, Session, World } from "./types";
+import type { Corrected, Frame, Mark, Session, World } from "./types";
 
 const RETRY_MS = [300, 1000, 2000, 5000];
 
 export interface Drive {
   session: Session | null;
   world: World | null;
+  corrected: Corrected | null;
   frame: Frame | null;
   marks: Mark[];
   paused: boolean;
@@ -19,7 +20,7 @@ export interface Drive {
 }
 
 const NONE: Drive = {
-  session: null, world: null, frame: null, marks: [], paused: false, speed: 1, recorded: [0, 0],
+  session: null, world: null, corrected: null, frame: null, marks: [], paused: false, speed: 1, recorded: [0, 0],
   done: null, error: "", fatal: false, connected: false,
 };
 
@@ -106,6 +107,8 @@ function heard(drive: Drive, message: Record<string, unknown> & { type: string }
     }
     case "world":
       return { ...drive, world: message as unknown as World };
+    case "corrected":
+      return { ...drive, corrected: message as unknown as Corrected };
     case "frame":
       return { ...drive, frame: message as unknown as Frame };
     case "marks":

@@ -4,7 +4,7 @@ import { loadDrawing, loadExample, SVG } from "./api";
 import { isRecording, stem } from "./disk";
 import type { Opening } from "./Files";
 import { openContent } from "./opening";
-import { sceneIn, type Scene } from "./svg";
+import type { Scene } from "./svg";
 import type { Autosave } from "./useAutosave";
 
 /** A drawing as the server knows it. */
@@ -28,10 +28,10 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
 } {
   const from = useRef<Origin | null>(null);
 
-  const openBlob = useCallback(async (name: string, content: Blob, title: string, origin: Origin | null) => {
+  const openBlob = useCallback(async (name: string, content: Blob, title: string, origin?: Origin) => {
     const opened = await openContent(name, content);
     show(opened);
-    from.current = origin;
+    from.current = opened.svg === null ? null : (origin ?? { content: { media: SVG, text: opened.svg } });
     save.adopt({ name: "", base: stem(title), tag: null }, whole());
     if (opened.notes.length) tell(opened.notes.join("; "));
   }, [save, show, tell, whole]);
@@ -63,8 +63,7 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
   return { opening, openNamed, guarded, origin: useCallback(() => from.current, []) };
 }
 
-async function originOf(file: File): Promise<Origin | null> {
-  if (!/\.svg$/i.test(file.name)) return null;
-  const text = await file.text();
-  return sceneIn(text) ? null : { content: { media: SVG, text } };
+/** An SVG file is its own origin; of others it is what the server made of them. */
+async function originOf(file: File): Promise<Origin | undefined> {
+  return /\.svg$/i.test(file.name) ? { content: { media: SVG, text: await file.text() } } : undefined;
 }

@@ -50,7 +50,11 @@ def test_a_robot_reaches_the_goal_on_a_drawing_made_real(sheet: Sheet) -> None:
     sheet.page.wait_for_timeout(800)
     sheet.shot("drive")
     sheet.ended("reached")
+    found = sheet.page.get_by_test_id("believed")
+    expect(found).to_have_attribute("data-corrected", re.compile(r"0\.[3-9]|1"), timeout=PATIENCE_MS)
     sheet.shot("reached")
+    sheet.page.get_by_role("checkbox", name=re.compile("drawing as found: .* of the walls seen")).uncheck()
+    expect(found).to_have_attribute("data-corrected", "")
 
     timeline = sheet.page.get_by_test_id("timeline")
     timeline.fill("1")
@@ -164,6 +168,53 @@ def test_a_drive_is_ordered_and_paused_by_keyboard_alone(sheet: Sheet) -> None:
     assert before == page.get_by_test_id("timeline").input_value()
 
 
+def test_fate_is_played_by_keyboard_alone(sheet: Sheet) -> None:
+    page = sheet.page
+    sheet.draw_flat()
+    set_goal(sheet, 800, 240)
+    sheet.drive(speed=1, severity=0.0)
+    pause(sheet)
+    said = page.get_by_test_id("said")
+
+    choose_fate(page, "Door")
+    expect(said).to_have_text("open door: here")
+    page.keyboard.press("Enter")
+    expect(said).to_have_text("a door was closed", timeout=PATIENCE_MS)
+    choose_fate(page, "Carry")
+    world = page.get_by_test_id("world")
+    told = world.get_attribute("data-robot") or ""
+    before = in_the_world(sheet, "robot")[0]
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Shift+ArrowLeft")
+    expect(said).to_have_text(re.compile(r"robot: .* m right, .* m below"))
+    sheet.shot("keyboard")
+    page.keyboard.press("Enter")
+    expect(said).to_contain_text("carried", timeout=PATIENCE_MS)
+    expect(world).not_to_have_attribute("data-robot", told, timeout=PATIENCE_MS)
+    after = in_the_world(sheet, "robot")[0]
+    assert after[0] < before[0]
+    assert after[1] < before[1]
+    for fate, words in (("Box", "box"), ("Person", "walks")):
+        choose_fate(page, fate)
+        page.keyboard.press("Shift+ArrowDown")
+        page.keyboard.press("Shift+ArrowRight")
+        page.keyboard.press("Enter")
+        expect(said).to_contain_text(words, timeout=PATIENCE_MS)
+    choose_fate(page, "New goal")
+    expect(page.get_by_test_id("believed")).to_be_focused()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Enter")
+    expect(said).to_contain_text("the goal is now", timeout=PATIENCE_MS)
+    expect(page.get_by_role("button", name="New goal")).to_be_focused()
+
+
+def choose_fate(page: Page, name: str) -> None:
+    """Press a button of fate by keyboard, from wherever the keyboard is."""
+    page.keyboard.press("Escape")
+    tab_to(page.get_by_role("group", name="Play fate").get_by_role("button", name=name, exact=True))
+    page.keyboard.press("Enter")
+
+
 def tab_to(wanted: Locator) -> None:
     """Press Tab until this has the keyboard."""
     for _ in range(120):
@@ -199,6 +250,7 @@ def test_nothing_seriously_bars_people_who_see_or_move_differently(page: Page, s
     faults += serious(page)
     sheet.drive(speed=20)
     page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="Box", exact=True).click()
     faults += serious(page)
 
     assert [] == faults
