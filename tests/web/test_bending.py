@@ -97,7 +97,7 @@ def test_fits_use_less_than_a_tenth_of_a_processor(takes: float, more: list[int]
 
     def forked(*_: object):
         here, there = multiprocessing.Pipe(duplex=False)
-        there.send(FOUND)
+        there.send((FOUND, takes))
         begun.append(len(seen))
         return 0, here
 

@@ -17,7 +17,7 @@ from pilotage.web.drawings import Json, Page
 SIGHTINGS = 6
 """New sightings until the drawing is corrected again: 3 m of travel."""
 REST = 10.0
-"""Pause after a fit, in times that it took: fits use less than a tenth of a processor."""
+"""Pause after a fit, in times of the processor that it took: fits use less than a tenth of one."""
 POLITE = 10
 """Added to the niceness of a fit, so that the drive goes first."""
 
@@ -31,7 +31,7 @@ class Bending:
         self._atlas, self._sightings = atlas, sightings
         self._inherited = inherited  # the drive's own connection, which a fit must not keep open
         self._used = 0  # sightings of the last fit
-        self._began = self._rests_until = 0.0  # [s] on the clock
+        self._rests_until = 0.0  # [s] on the clock
         self._process = 0
         self._pipe: Connection | None = None
 
@@ -47,21 +47,21 @@ class Bending:
         self._used = min(self._used, len(self._sightings))  # a robot that was carried begins anew
         fresh, now = len(self._sightings) - self._used, time.monotonic()
         if fresh > 0 and (is_over or (fresh >= SIGHTINGS and now >= self._rests_until)):
-            self._used, self._began = len(self._sightings), now
+            self._used = len(self._sightings)
             self._process, self._pipe = forked(self._work(self._sightings[: self._used]), self._inherited)
 
     def result(self) -> Json | None:
         """Return what a fit has found, once its pipe is ready; None if the robot was not sure enough."""
         assert self._pipe is not None
+        found: Json | None
         try:
-            found: Json | None = self._pipe.recv()
+            found, took = self._pipe.recv()
         except EOFError:
-            found = None  # it failed; the last one stands
+            found, took = None, 0.0  # it failed; the last one stands
         self._pipe.close()
         self._pipe = None
         os.waitpid(self._process, 0)
-        now = time.monotonic()
-        self._rests_until = now + REST * (now - self._began)
+        self._rests_until = time.monotonic() + REST * took
         return found
 
     def _work(self, sightings: Sequence[Sighting]) -> Work:
@@ -77,7 +77,7 @@ class Bending:
 
 
 def forked(work: Work, inherited: Connection) -> tuple[int, Connection]:
-    """Do some work in a copy of this process; return its id and where its result will be heard."""
+    """Do some work in a copy of this process; return its id, and where to hear result and time taken [s]."""
     here, there = multiprocessing.Pipe(duplex=False)
     process = os.fork()
     if process == 0:
@@ -85,7 +85,7 @@ def forked(work: Work, inherited: Connection) -> tuple[int, Connection]:
             inherited.close()
             here.close()
             os.nice(POLITE)
-            there.send(work())
+            there.send((work(), time.process_time()))
         finally:
             os._exit(0)
     there.close()
