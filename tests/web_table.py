@@ -8,7 +8,8 @@ from typing import Any
 from starlette.testclient import WebSocketTestSession
 
 TOKEN = "a-token-that-nobody-guesses"  # noqa: S105  # of servers that live for a test
-LIVE = "ws://127.0.0.1:8765/api/live"
+HOST = "127.0.0.1:8765"
+LIVE = f"ws://{HOST}/api/live"
 
 FLAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="none" stroke="black">
 <path d="M10 10 H190 V110 H10 Z M10 60 H40 M55 60 H130 M145 60 H190"/>

@@ -1,6 +1,6 @@
 // The page: the sheet with what is understood of it, or a drive on it.
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
-import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
+import type { AppState, BinaryFileData, ExcalidrawImperativeAPI, ExcalidrawProps } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { sendRecording, SVG } from "./api";
 import { cellAt, describeCell } from "./cells";
@@ -25,6 +25,14 @@ import { remark, useUnderstanding } from "./useUnderstanding";
 const GOAL_SIZE = 24;
 const START_LENGTH = 50; // of a start arrow that was only clicked [scene units]
 const NOTICE_MS = 6000;
+
+// The editor's properties never change, so that it is not painted anew with each frame of a drive.
+const AT_FIRST: ExcalidrawProps["initialData"] = {
+  appState: { currentItemRoughness: 0, currentItemStrokeWidth: 2, currentItemRoundness: "sharp", currentItemStrokeColor: COLOR.wall, currentItemFontFamily: 5, viewBackgroundColor: "#ffffff" },
+};
+const OFFERED: ExcalidrawProps["UIOptions"] = {
+  canvasActions: { export: false, saveToActiveFile: false, loadScene: false, saveAsImage: false, toggleTheme: false, changeViewBackgroundColor: false, clearCanvas: false }, tools: { image: false },
+};
 
 export function App() {
   const [editor, setEditor] = useState<ExcalidrawImperativeAPI | null>(null);
@@ -230,12 +238,12 @@ export function App() {
         >
           <Excalidraw
             excalidrawAPI={setEditor}
-            onChange={(all, state) => changed(all as readonly Element[], state)}
+            onChange={changed}
             handleKeyboardGlobally={false}
             autoFocus
             aiEnabled={false}
-            initialData={{ appState: { currentItemRoughness: 0, currentItemStrokeWidth: 2, currentItemRoundness: "sharp", currentItemStrokeColor: COLOR.wall, currentItemFontFamily: 5, viewBackgroundColor: "#ffffff" } }}
-            UIOptions={{ canvasActions: { export: false, saveToActiveFile: false, loadScene: false, saveAsImage: false, toggleTheme: false, changeViewBackgroundColor: false, clearCanvas: false }, tools: { image: false } }}
+            initialData={AT_FIRST}
+            UIOptions={OFFERED}
           />
           <Overlay told={told} view={view} hovered={hovered?.id ?? ""} goal={goalOf(elements())} ends={ends} preview={preview} mend={mend} />
           {tool !== "none" && (

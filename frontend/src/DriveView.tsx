@@ -98,7 +98,7 @@ export function DriveView({ drive, fate, setFate, send }: Props) {
 
   // What came of it is said too.
   const last = drive.marks.at(-1);
-  useEffect(() => setSaid(last?.kind === "fate" ? last.text : ""), [last?.t, last?.text]);
+  useEffect(() => setSaid(last?.kind === "fate" ? last.text : ""), [drive.marks.length, last?.text]);
 
   return (
     <div className="side-by-side">

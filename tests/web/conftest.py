@@ -1,5 +1,8 @@
-"""A server in this process, with workers of its own."""
+"""Servers with workers of their own: one in this process for each test, and the real command for all."""
 
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -48,3 +51,27 @@ def client(stranger: TestClient) -> TestClient:
     """A client with the token."""
     stranger.headers["Authorization"] = f"Bearer {TOKEN}"
     return stranger
+
+
+@pytest.fixture(scope="session")
+def drawings(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the command that runs."""
+    return tmp_path_factory.mktemp("drawings")
+
+
+@pytest.fixture(scope="session")
+def address(drawings: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Address that the command prints, with its token."""
+    said = tmp_path_factory.mktemp("said") / "stderr.txt"
+    pilotage = Path(sys.executable).with_name("pilotage")
+    command = [pilotage, "table", drawings, "--no-browser", "--port", "0"]
+    with said.open("w") as stderr, subprocess.Popen(command, stderr=stderr) as server:  # noqa: S603  # our own
+        try:
+            while not said.read_text().endswith("\n"):
+                assert server.poll() is None
+                time.sleep(0.05)
+            yield said.read_text().split()[-1]
+        finally:
+            server.terminate()
+            server.wait(30)
+    assert "Traceback" not in said.read_text()

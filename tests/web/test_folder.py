@@ -36,7 +36,7 @@ def test_a_link_out_of_the_folder_is_neither_listed_nor_read_nor_written(folder:
 
 
 @given(st.text(max_size=40))
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_no_name_leads_out_of_the_folder(folder: Path, name: str) -> None:
     try:
         found = Folder(folder).path(name + ".svg")

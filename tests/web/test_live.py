@@ -14,8 +14,11 @@ from pilotage.drives import drive, set_out
 from pilotage.io import open_map
 from pilotage.io.journal import journal_file
 from pilotage.simulation import World
+from pilotage.web.app import build_app
+from pilotage.web.folder import Folder
+from pilotage.web.guard import Access
 from pilotage.web.table import Table
-from web_table import CLOSED, CONTENT, FLAT, LIVE, TWO_ROOMS, Talk
+from web_table import CLOSED, CONTENT, FLAT, HOST, LIVE, TOKEN, TWO_ROOMS, Talk
 
 SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
@@ -228,16 +231,20 @@ def test_a_log_is_localized_live_and_can_only_be_watched(client: TestClient) -> 
     assert (504, "a recording can only be watched") == (refused.status_code, refused.json()["error"])
 
 
-def journal_of_a_drive(client: TestClient) -> str:
-    """Drive for some seconds, and return the journal."""
-    with talking(client) as talk:
-        session = talk.start(speed=100)
-        talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
-    return client.get(f"/api/sessions/{session['session']}/journal").text
+@pytest.fixture(scope="module")
+def text(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The journal of a drive of some seconds through the flat."""
+    table = Table(Folder(tmp_path_factory.mktemp("drives")))
+    app = build_app(table, Access(TOKEN, frozenset({HOST})), tmp_path_factory.mktemp("static"))
+    with TestClient(app, base_url=f"http://{HOST}") as client:
+        client.headers["Authorization"] = f"Bearer {TOKEN}"
+        with talking(client) as talk:
+            session = talk.start(speed=100)
+            talk.hear_until("frame", lambda frame: frame["t"] > 5.0)
+        return client.get(f"/api/sessions/{session['session']}/journal").text
 
 
-def test_any_moment_of_a_journal_is_shown_as_it_was(client: TestClient) -> None:
-    text = journal_of_a_drive(client)
+def test_any_moment_of_a_journal_is_shown_as_it_was(client: TestClient, text: str) -> None:
     lines = [json.loads(line) for line in text.splitlines()]
     kept = client.post("/api/recordings?name=journal.jsonl", content=text).json()
     assert "journal" == kept["kind"]
@@ -286,9 +293,9 @@ def test_a_journal_of_a_plan_from_cad_is_shown_on_it(client: TestClient, tmp_pat
     assert [last["x"], -last["y"]] == pytest.approx(way[-1]["believed"], abs=0.01)
 
 
-def test_a_journal_of_a_named_world_shows_its_walls(client: TestClient, folder: Path) -> None:
+def test_a_journal_of_a_named_world_shows_its_walls(client: TestClient, folder: Path, text: str) -> None:
     (folder / "run").mkdir()
-    (folder / "run" / "journal.jsonl").write_text(journal_of_a_drive(client))
+    (folder / "run" / "journal.jsonl").write_text(text)
     (folder / "true.svg").write_text(FLAT)
     listed = client.get("/api/recordings").json()["recordings"]
     assert ["packed:office", "file:run/journal.jsonl"] == [one["id"] for one in listed]
@@ -318,8 +325,7 @@ def test_a_recording_that_cannot_be_read_says_why(
     assert error["text"].endswith(f": {name}")
 
 
-def test_a_journal_of_another_drawing_is_refused(client: TestClient) -> None:
-    text = journal_of_a_drive(client)
+def test_a_journal_of_another_drawing_is_refused(client: TestClient, text: str) -> None:
     kept = client.post("/api/recordings?name=journal.jsonl", content=text).json()
     with talking(client) as talk:
         talk.say("start", drawing="example:office/quick", recording=kept["id"])

@@ -5,8 +5,6 @@ import subprocess
 import sys
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -19,43 +17,19 @@ from pilotage.web.serve import Address, ServerError, serve
 EXAMPLE = Path(__file__).parents[2] / "examples" / "03_drive_at_the_table.py"
 
 
-@contextmanager
-def running(folder: Path, *options: str) -> Iterator[str]:
-    """Start the command and yield the address that it prints."""
-    command = [
-        sys.executable,
-        "-c",
-        "from pilotage.cli import main; main()",
-        "table",
-        str(folder),
-        "--no-browser",
-    ]
-    with subprocess.Popen(  # noqa: S603  # our own command
-        [*command, *options], stderr=subprocess.PIPE, text=True
-    ) as process:
-        assert process.stderr is not None
-        try:
-            yield process.stderr.readline().split()[-1]
-        finally:
-            process.terminate()
-            process.wait(20)
-        assert "Traceback" not in process.stderr.read()
-
-
 @pytest.mark.slow
-def test_the_example_drives_at_a_table_that_runs(folder: Path) -> None:
-    with running(folder, "--port", "0") as url:
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=(\S{20,})", url)
-        assert found is not None
-        with pytest.raises(urllib.error.HTTPError, match="401"):
-            urllib.request.urlopen(f"http://127.0.0.1:{found[1]}/api/info")
-        said = subprocess.run(  # noqa: S603  # our own example
-            [sys.executable, EXAMPLE, found[2], found[1]],
-            capture_output=True,
-            text=True,
-            timeout=200,
-            check=False,
-        )
+def test_the_example_drives_at_a_table_that_runs(address: str) -> None:
+    found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=(\S{20,})", address)
+    assert found is not None
+    with pytest.raises(urllib.error.HTTPError, match="401"):
+        urllib.request.urlopen(f"http://127.0.0.1:{found[1]}/api/info")
+    said = subprocess.run(  # noqa: S603  # our own example
+        [sys.executable, EXAMPLE, found[2], found[1]],
+        capture_output=True,
+        text=True,
+        timeout=200,
+        check=False,
+    )
 
     assert "" == said.stderr
     assert "packed:office" in said.stdout

@@ -1,9 +1,5 @@
 """The drawing table as a person meets it: the real server, and the page in a real browser."""
 
-import socket
-import subprocess
-import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,29 +13,10 @@ from playwright.sync_api import Browser, Page
 from web_page import Sheet
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture
+def folder(drawings: Path) -> Path:
     """The folder of the server."""
-    return tmp_path_factory.mktemp("drawings")
-
-
-@pytest.fixture(scope="session")
-def address(folder: Path) -> Iterator[str]:
-    """Address of the page, with its token."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    pilotage = Path(sys.executable).with_name("pilotage")
-    command = [pilotage, "table", folder, "--no-browser", "--port", str(port), "--token", "journeys"]
-    server = subprocess.Popen(command)  # noqa: S603  # our own command
-    for _ in range(300):
-        with socket.socket() as caller:
-            if caller.connect_ex(("127.0.0.1", port)) == 0:
-                break
-        time.sleep(0.1)
-    yield f"http://127.0.0.1:{port}/?token=journeys"
-    server.terminate()
-    server.wait(30)
+    return drawings
 
 
 @pytest.fixture(scope="session")

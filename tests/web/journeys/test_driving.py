@@ -93,28 +93,7 @@ def test_a_kidnapped_robot_doubts_and_finds_itself_again(sheet: Sheet) -> None:
     sheet.shot("recovered")
 
 
-def test_a_closed_door_is_told_and_a_reload_goes_on_with_the_drive(sheet: Sheet) -> None:
-    page = sheet.page
-    page.get_by_role("button", name="office, careful").click()
-    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
-    page.get_by_role("button", name="Drive", exact=True).click()
-    page.get_by_role("combobox", name="World").select_option("packed:office")
-    page.get_by_role("combobox", name="Goal").select_option("workshop")
-    page.get_by_test_id("go").click()
-    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
-    page.get_by_role("button", name="Door", exact=True).click()
-    page.mouse.click(*sheet.in_world(*in_the_world(sheet, "doors")[0]))
-
-    expect(sheet.marks).to_contain_text("door", timeout=PATIENCE_MS)
-    sheet.shot("door")
-    page.reload()
-    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
-    expect(sheet.marks).to_contain_text("door", timeout=PATIENCE_MS)
-    page.get_by_role("button", name="Back to the drawing").click()
-    expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
-
-
-def test_a_door_closed_in_mid_drive_leads_to_a_detour(sheet: Sheet) -> None:
+def test_a_door_closed_in_mid_drive_leads_to_a_detour_and_a_reload_goes_on(sheet: Sheet) -> None:
     page = sheet.page
     sheet.focus()
     sheet.box(300, 150, 600, 620)
@@ -132,6 +111,9 @@ def test_a_door_closed_in_mid_drive_leads_to_a_detour(sheet: Sheet) -> None:
     page.get_by_role("button", name="Door", exact=True).click()
     page.mouse.click(*sheet.in_world(*near))
     expect(sheet.marks).to_contain_text("a door was closed", timeout=PATIENCE_MS)
+    page.reload()
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
+    expect(sheet.marks).to_contain_text("a door was closed", timeout=PATIENCE_MS)
     page.get_by_role("combobox", name="Speed").select_option("20")
     page.get_by_role("button", name="Go on").click()
     way = way_until(sheet, "reached")
@@ -141,9 +123,11 @@ def test_a_door_closed_in_mid_drive_leads_to_a_detour(sheet: Sheet) -> None:
     assert way[-1][0] > near[0]
     crossing = min(way, key=lambda place: abs(place[0] - near[0]))
     assert abs(crossing[1] - far[1]) < abs(crossing[1] - near[1])
+    page.get_by_role("button", name="Back to the drawing").click()
+    expect(sheet.summary).to_contain_text("2 cells, 2 openings", timeout=PATIENCE_MS)
 
 
-def test_a_drive_is_ordered_and_paused_by_keyboard_alone(sheet: Sheet) -> None:
+def test_a_drive_is_ordered_paused_and_interfered_with_by_keyboard_alone(sheet: Sheet) -> None:
     page = sheet.page
     tab_to(page.get_by_role("button", name="office, careful"))
     page.keyboard.press("Enter")
@@ -155,6 +139,8 @@ def test_a_drive_is_ordered_and_paused_by_keyboard_alone(sheet: Sheet) -> None:
     tab_to(page.get_by_role("button", name="Drive", exact=True))
     page.keyboard.press("Enter")
     expect(page.get_by_test_id("go")).to_be_enabled()
+    tab_to(page.get_by_label("How wrong the drawing is"))
+    page.keyboard.press("Home")
     tab_to(page.get_by_test_id("go"))
     page.keyboard.press("Enter")
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=2 * PATIENCE_MS)
@@ -166,16 +152,13 @@ def test_a_drive_is_ordered_and_paused_by_keyboard_alone(sheet: Sheet) -> None:
     before = page.get_by_test_id("timeline").input_value()
     page.wait_for_timeout(1000)
     assert before == page.get_by_test_id("timeline").input_value()
+    play_fate_by_keyboard(sheet)
 
 
-def test_fate_is_played_by_keyboard_alone(sheet: Sheet) -> None:
+def play_fate_by_keyboard(sheet: Sheet) -> None:
+    """Close a door, carry the robot, put things in its way and send it elsewhere."""
     page = sheet.page
-    sheet.draw_flat()
-    set_goal(sheet, 800, 240)
-    sheet.drive(speed=1, severity=0.0)
-    pause(sheet)
     said = page.get_by_test_id("said")
-
     choose_fate(page, "Door")
     expect(said).to_have_text("open door: here")
     page.keyboard.press("Enter")
@@ -194,10 +177,9 @@ def test_fate_is_played_by_keyboard_alone(sheet: Sheet) -> None:
     after = in_the_world(sheet, "robot")[0]
     assert after[0] < before[0]
     assert after[1] < before[1]
-    for fate, words in (("Box", "box"), ("Person", "walks")):
+    for fate, way, words in (("Box", "Shift+ArrowRight", "box"), ("Person", "ArrowUp", "walks")):
         choose_fate(page, fate)
-        page.keyboard.press("Shift+ArrowDown")
-        page.keyboard.press("Shift+ArrowRight")
+        page.keyboard.press(way)
         page.keyboard.press("Enter")
         expect(said).to_contain_text(words, timeout=PATIENCE_MS)
     choose_fate(page, "New goal")
@@ -224,9 +206,11 @@ def tab_to(wanted: Locator) -> None:
     raise AssertionError(f"Tab does not lead to {wanted}")
 
 
-def test_a_drive_is_watched_on_a_phone(browser: Browser, address: str) -> None:
+def test_a_drawing_and_its_drive_fit_a_phone(browser: Browser, address: str) -> None:
     sheet = on_a_phone(browser, address)
     page = sheet.page
+    sheet.shot("phone")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
     page.get_by_role("button", name="Drive", exact=True).tap()
     page.get_by_role("combobox", name="Goal").select_option("Ana")
     page.get_by_test_id("go").tap()

@@ -82,7 +82,7 @@ def test_the_journal_of_a_drive_is_watched_from_any_moment_on(
 
 
 def drive_through_the_office(path: Path) -> list[dict]:
-    """Drive for 40 s of the robot's time, and write the journal of it."""
+    """Drive for 12 s of the robot's time, and write the journal of it."""
     from itertools import islice
 
     from pilotage.drives import drive, set_out
@@ -92,6 +92,6 @@ def drive_through_the_office(path: Path) -> list[dict]:
     sketch = open_map(OFFICE.careful)
     navigator, simulator = set_out(sketch, open_world(OFFICE.world), "Ana")
     with journal_file(path, sketch) as write:
-        for instant in islice(drive(navigator, simulator), 400):
+        for instant in islice(drive(navigator, simulator), 120):
             write(instant.step, instant.scene)
     return [json.loads(line) for line in path.read_text().splitlines()]
