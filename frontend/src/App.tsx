@@ -18,7 +18,7 @@ import { drawingToSvg, sceneText } from "./svg";
 import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
-import { useDrive } from "./useDrive";
+import { useDrive, type Order } from "./useDrive";
 import { useOpening } from "./useOpening";
 import { remark, useUnderstanding } from "./useUnderstanding";
 
@@ -51,6 +51,7 @@ export function App() {
   const [welcome, setWelcome] = useState(!location.hash.includes("drawing="));
   const [notice, setNotice] = useState("");
   const version = useRef(0);
+  const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
   const { drive, begin, resume, send, leave } = useDrive();
 
   const elements = useCallback(() => (editor?.getSceneElements() ?? []) as readonly Element[], [editor]);
@@ -188,11 +189,22 @@ export function App() {
     setFate("none");
     setTool("none");
     if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
-    begin({
-      type: "start", ...((choice.recording && origin()) || drawn), ...(goal && !choice.recording ? { goal } : {}),
+    const order = {
+      type: "start", ...drawn, ...(goal && !choice.recording ? { goal } : {}),
       ...(start && choice.tellStart && !choice.recording ? { start } : {}), ...orderOf(choice),
-    });
+    };
+    const source = choice.recording && origin();
+    otherwise.current = source ? order : null;
+    begin(source ? { ...order, content: undefined, ...source } : order);
   };
+
+  // A journal is in the units of the file that is open, or of the sheet if it was driven at the table.
+  const refused = drive?.fatal === true && !drive.session;
+  useEffect(() => {
+    if (!refused || !otherwise.current) return;
+    begin(otherwise.current);
+    otherwise.current = null;
+  }, [refused, begin]);
 
   const download = (kind: "svg" | "excalidraw") => {
     const text = kind === "svg" ? drawingToSvg(elements(), files()) : sceneText(elements(), files());
@@ -200,7 +212,7 @@ export function App() {
   };
 
   const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
-  const bottomLine = hovered ? describeCell(hovered, told, scale) : (TOOLS.find((one) => one.tool === tool)?.hint ?? "");
+  const bottomLine = hovered ? describeCell(hovered, told, scale) : (TOOLS.find((one) => one.tool === tool)?.hint ?? STYLE_HINT[style] ?? "");
 
   return (
     <div

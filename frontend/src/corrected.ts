@@ -20,6 +20,6 @@ export function paintCorrected(brush: Brush, { seen, unseen, passages }: Correct
 
 export function describeCorrected({ seen_share: share, passages }: Corrected): string {
   const doors = (["open", "closed"] as const).map((state) => [passages.filter((one) => one.state === state).length, state] as const);
-  const found = doors.filter(([count]) => count).map(([count, state]) => `${count} ${count === 1 ? "door" : "doors"} found ${state}`);
-  return [`${percent(share)} of the walls seen`, ...found].join(", ");
+  const found = doors.filter(([count]) => count).map(([count, state]) => `${count} ${count === 1 ? "door" : "doors"} ${state}`);
+  return [`${percent(share)} seen (else dashed)`, ...found].join(", ");
 }

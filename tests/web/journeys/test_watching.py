@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from pilotage.worlds import LOG, OFFICE
+from pilotage.worlds import LOG
 from web_page import PATIENCE_MS, Sheet
 
 pytestmark = pytest.mark.slow
@@ -16,6 +16,7 @@ pytestmark = pytest.mark.slow
 
 def clock(page: Page) -> float:
     """Return the moment that is shown [s]."""
+    page.get_by_test_id("timeline").wait_for(timeout=2 * PATIENCE_MS)
     return float(page.get_by_test_id("timeline").input_value())
 
 
@@ -51,16 +52,13 @@ def test_a_log_is_dropped_on_a_drawing_and_watched_at_any_speed(sheet: Sheet) ->
     wait_for(page, lambda t: t > 6.0)
 
 
-def test_the_journal_of_a_drive_is_watched_from_any_moment_on(
-    sheet: Sheet, folder: Path, tmp_path: Path
-) -> None:
+def test_the_journal_of_a_drive_is_taken_and_watched_from_any_moment_on(sheet: Sheet, tmp_path: Path) -> None:
     page = sheet.page
-    (folder / "office.svg").write_bytes(OFFICE.careful.read_bytes())
-    page.reload()
-    page.get_by_role("button", name="office.svg").click()
+    page.get_by_role("button", name="office, careful").click()
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
     journal = tmp_path / "journal.jsonl"
-    lines = drive_through_the_office(journal)
+    lines = drive_through_the_office(page, journal)
+    page.get_by_role("button", name="Back to the drawing").click()
     page.get_by_test_id("file-input").set_input_files(journal)
     page.get_by_role("combobox", name="Driven in").select_option("packed:office")
     page.get_by_role("combobox", name="Speed").select_option("1")
@@ -81,17 +79,16 @@ def test_the_journal_of_a_drive_is_watched_from_any_moment_on(
     wait_for(page, lambda t: t < late["stamp"])
 
 
-def drive_through_the_office(path: Path) -> list[dict]:
-    """Drive for 12 s of the robot's time, and write the journal of it."""
-    from itertools import islice
-
-    from pilotage.drives import drive, set_out
-    from pilotage.io import open_map, open_world
-    from pilotage.io.journal import journal_file
-
-    sketch = open_map(OFFICE.careful)
-    navigator, simulator = set_out(sketch, open_world(OFFICE.world), "Ana")
-    with journal_file(path, sketch) as write:
-        for instant in islice(drive(navigator, simulator), 120):
-            write(instant.step, instant.scene)
+def drive_through_the_office(page: Page, path: Path) -> list[dict]:
+    """Drive for 12 s of the robot's time, and keep the journal of it."""
+    page.get_by_role("button", name="Drive", exact=True).click()
+    page.get_by_role("combobox", name="World").select_option("packed:office")
+    page.get_by_role("combobox", name="Goal").select_option("Ana")
+    page.get_by_role("combobox", name="Speed").select_option("50")
+    page.get_by_test_id("go").click()
+    wait_for(page, lambda t: t > 12.0)
+    page.get_by_role("button", name="Pause").click()
+    with page.expect_download(timeout=PATIENCE_MS) as kept:
+        page.get_by_role("button", name="Journal", exact=True).click()
+    kept.value.save_as(path)
     return [json.loads(line) for line in path.read_text().splitlines()]
