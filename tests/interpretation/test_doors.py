@@ -3,9 +3,12 @@
 import math
 
 import pytest
+import shapely
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
 from pilotage.interpretation import Pen, Role, Sheet, interpret
+from pilotage.interpretation.paint import NOTHING
+from pilotage.interpretation.windows import windows
 
 PEN = Pen(BLACK, 1.0)
 WALL = stroke((50, 0), (50, 80))
@@ -15,6 +18,12 @@ INNER = [(48, 0, 52, 30), (48, 42, 52, 80)]
 
 def roles(marks):
     return [meaning.role for meaning in interpret(Sheet(tuple(marks))).meanings]
+
+
+def ends_of_gateways(marks):
+    """List the pairs of names of the cells that gateways join; a doorway may be a cell without one."""
+    graph = graph_of(marks)
+    return [{graph.cell(name).label for name in gateway.cell_ids} for gateway in graph.gateways]
 
 
 @pytest.mark.parametrize("opened", [30, 60, 90, 110])
@@ -111,6 +120,37 @@ def test_a_window_in_an_outer_wall_closes():
     assert len(graph_of(whole).cells) == len(graph_of((*painted, *glass)).cells)
     solid = interpret(Sheet((*painted, *glass))).sketch.solids
     assert any(line.vertices[:, 0].min() < 20 and line.vertices[:, 0].max() > 32 for line in solid)
+
+
+def test_a_door_drawn_shut_opens_although_the_front_door_stands_open():
+    broken = [(0, 0, 20, 4), (32, 0, 100, 4), *OUTER[1:]]
+    painted = [box(*sides, fill=BLACK) for sides in broken + INNER]
+    front = (stroke((20, 4), (20, 16)), arc((20, 4), 12, 0, 90))
+    shut = [stroke((x, 30), (x, 42)) for x in (48.0, 52.0)]
+
+    assert {"bath", "hall"} in ends_of_gateways((*painted, *front, *shut))
+
+
+def test_a_thin_panel_in_a_color_of_its_own_is_a_sliding_door_inside_and_a_pane_outside():
+    cyan = (0.0, 0.6, 0.6)
+    walls = [box(*sides, fill=BLACK) for sides in ((0, 0, 4, 80), (0, 0, 4, 4), (96, 0, 100, 80), *INNER)]
+    panes = [box(*sides, fill=cyan) for sides in ((4, 1.5, 96, 2.5), (4, 77.5, 96, 78.5))]
+    front = (stroke((96, 20), (84, 20)), arc((96, 20), 12, 90, 180))
+    panel = box(49.5, 30, 50.5, 42, fill=cyan)
+
+    assert {"bath", "hall"} in ends_of_gateways((*walls, *panes, *front, panel))
+
+
+def test_what_is_named_a_window_closes_though_it_does_not_reach_the_next_wall():
+    wall, pane = shapely.box(0, 0, 10, 2), shapely.box(10, 0, 20, 2)
+    filled = shapely.union(wall, pane)
+
+    glazed, shut = windows(filled, wall, shapely.LineString([(12, 1), (18, 1)]), 3.0, 12.0)
+    nothing, _ = windows(filled, wall, NOTHING, 3.0, 12.0)
+
+    assert 19.9 < glazed.area < 24.0
+    assert shut.is_empty
+    assert nothing.is_empty
 
 
 def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():

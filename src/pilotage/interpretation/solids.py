@@ -19,6 +19,9 @@ SLENDER = 4.0
 SECOND = 0.3
 """A second color or thickness is of walls, too, if so much wall has it, as a share of the first one's."""
 
+PANEL = 0.5
+"""What is painted thinner than this share of most walls, in a color of its own, may be a sliding door."""
+
 CONTRAST = 0.25
 """Walls differ from the ground by at least this much in lightness; floors are paler."""
 
@@ -62,17 +65,28 @@ def lightness(color: Color) -> float:
     return 0.299 * red + 0.587 * green + 0.114 * blue
 
 
-def dark_areas(areas: Sequence[tuple[shapely.Geometry, Color]], ground: Color, diagonal: float) -> set[Color]:
-    """Find the colors in which walls are painted: long and thin, and unlike the ground."""
+def dark_areas(
+    areas: Sequence[tuple[shapely.Geometry, Color]], ground: Color, diagonal: float
+) -> tuple[set[Color], set[Color]]:
+    """Find the colors in which walls are painted: long and thin, and unlike the ground; and which are thin.
+
+    Thin are those in which walls are painted far thinner than in the color of most: sliding doors and panes
+    are painted so, too.
+    """
     lengths: dict[Color, float] = {}
+    thicknesses: dict[Color, float] = {}
     for color in {color for _, color in areas if abs(lightness(color) - lightness(ground)) >= CONTRAST}:
         same = shapely.union_all([area for area, other in areas if other == color])
         length, thick = measured_walls(same)
-        lengths[color] = float(length[(thick < THICKEST * diagonal) & (length > SLENDER * thick)].sum())
+        slender = (thick < THICKEST * diagonal) & (length > SLENDER * thick)
+        lengths[color] = float(length[slender].sum())
+        thicknesses[color] = float(thick[slender] @ length[slender]) / max(lengths[color], 1e-12)
     longest = max(lengths.values(), default=0.0)
-    if longest < diagonal:
-        return set()
-    return {color for color, length in lengths.items() if length >= SECOND * longest}
+    if longest == 0.0 or longest < diagonal:
+        return set(), set()
+    walls = {color for color, length in lengths.items() if length >= SECOND * longest}
+    usual = max(thicknesses[color] for color in walls if lengths[color] == longest)
+    return walls, {color for color in walls if thicknesses[color] < PANEL * usual}
 
 
 def measured_walls(solid: shapely.Geometry) -> tuple[Array, Array]:

@@ -27,6 +27,9 @@ from pilotage.interpretation.windows import windows, without_slivers
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
 
+WIDEST = 2.3
+"""Doors that are drawn shut are up to this many door widths wide: double and sliding doors."""
+
 USUAL_GAP, WIDE_GAP = 0.04, 0.08
 """The same where no door is drawn, as shares of the drawing's diagonal: of painted walls, and of lines."""
 
@@ -73,6 +76,8 @@ class Drawn:
     colors: frozenset[Color]
     main: shapely.Geometry  # lines in black or gray
     marginal: shapely.Geometry  # lines in a color, and dashed ones
+    panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
+    glass: shapely.Geometry  # lines and areas that are named windows
     doors: Sequence[Door]
     diagonal: float
 
@@ -120,11 +125,14 @@ def find_walls(
         for mark in seen
         if not mark.area.is_empty and (color := sheet.marks[mark.number].fill) is not None
     ]
-    colors = dark_areas([(mark.area, color) for mark, color in fills], ground, diagonal)
+    colors, thin = dark_areas([(mark.area, color) for mark, color in fills], ground, diagonal)
     solid = shapely.union_all(
         [mark.area for mark, color in fills if color in colors or named.get(mark.number) is Role.WALL]
     )
-    drawn = Drawn(solid, frozenset(colors), *by_style(seen, sheet), doors, diagonal)
+    panels = shapely.union_all([mark.area for mark, color in fills if color in thin])
+    panes = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
+    glass = shapely.union_all([shape for mark in panes for shape in (mark.line, mark.area)])
+    drawn = Drawn(solid, frozenset(colors), *by_style(seen, sheet), panels, glass, doors, diagonal)
     ways = (walls for way in (painted_walls, faced_walls, black_lines) if (walls := way(drawn)) is not None)
     return next(ways, Walls(solid, None, drawn.colors))
 
@@ -137,9 +145,11 @@ def painted_walls(drawn: Drawn) -> Walls | None:
     thickness = painted_thickness(drawn.solid)
     body = without_slivers(drawn.solid, SLIVER * thickness)
     filled = shapely.union(filled_between(drawn.lines, drawn.solid, thickness), drawn.solid)
-    widest = GAP * (drawn.door_width or USUAL_DOOR * drawn.diagonal)
-    glazed = windows(shapely.difference(filled, drawn.openings), body, thickness, widest)
-    walls = shapely.union(glazed, shapely.difference(body, drawn.openings))
+    widest = WIDEST * (drawn.door_width or USUAL_DOOR * drawn.diagonal)
+    thick = shapely.difference(body, drawn.panels)
+    glazed, shut = windows(shapely.difference(filled, drawn.openings), thick, drawn.glass, thickness, widest)
+    open_ = shapely.union_all([drawn.openings, shapely.intersection(shut, drawn.panels)])
+    walls = shapely.union(glazed, shapely.difference(body, open_))
     if not are_walls(walls, drawn.lines, gap):
         return None
     thin = find_partitions(drawn.lines, walls, drawn.doors, drawn.door_width or gap)

@@ -1,9 +1,8 @@
 """Tell windows from furniture and from doors that are drawn shut, between painted walls."""
 
-import numpy as np
 import shapely
 
-from pilotage.interpretation.paint import NOTHING, parts_of
+from pilotage.interpretation.paint import parts_of
 from pilotage.interpretation.solids import HAIR, extent
 
 
@@ -14,31 +13,43 @@ def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
 
 
 def windows(
-    filled: shapely.Geometry, solid: shapely.Geometry, thickness: float, widest: float
-) -> shapely.Geometry:
-    """Keep what leads from wall to wall, is as thin, and has a room on one side only.
+    filled: shapely.Geometry,
+    solid: shapely.Geometry,
+    glass: shapely.Geometry,
+    thickness: float,
+    widest: float,
+) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Tell windows from doors that are drawn shut, in this order, among what lies between solids.
 
-    What has rooms on both sides is a door that is drawn shut, if it is not wider than any, and what stands at
-    a wall is furniture.
+    Both lead from wall to wall and are as thin. A window has the outside on one side, or is named so: then it
+    touches the `glass`. What has rooms on both sides is a door, if it is not wider than any, and what stands
+    at a wall is furniture.
     """
     hair = HAIR * thickness
     reach, grown = (shapely.buffer(solid, share * hair, join_style="mitre") for share in (1.0, 2.0))
-    bridges = []
+    bridges, named = [], []
+    shapely.prepare(glass)
     for part in parts_of(shapely.difference(filled, reach)):
-        if part.geom_type == "Polygon" and part.area <= thickness * part.length / 2.0:
+        if part.geom_type != "Polygon":
+            continue
+        if glass.intersects(part):
+            named.append(shapely.buffer(part, 2.0 * hair, join_style="mitre"))
+        elif part.area <= thickness * part.length / 2.0:
             contact = shapely.line_merge(shapely.intersection(shapely.boundary(part), grown))
             if shapely.get_num_geometries(contact) > 1:
                 bridges.append(shapely.buffer(part, 2.0 * hair, join_style="mitre"))
-    rooms = [
-        shapely.Polygon(ring)
-        for part in parts_of(shapely.union_all([solid, *bridges]))
-        if part.geom_type == "Polygon"
-        for ring in part.interiors
-    ]
-    if not (rooms and bridges):
-        return NOTHING
-    owners, _ = shapely.STRtree(rooms).query(bridges, predicate="dwithin", distance=hair)
-    beside = np.bincount(owners, minlength=len(bridges))
-    return shapely.union_all(
-        [part for part, count in zip(bridges, beside, strict=True) if count < 2 or extent(part) > widest]
+    within = shapely.buffer(building(shapely.union_all([solid, *named, *bridges]), widest), -thickness)
+    shapely.prepare(within)
+    are_doors = [extent(part) <= widest and within.contains(part) for part in bridges]
+    doors, glazed = (
+        [part for part, is_door in zip(bridges, are_doors, strict=True) if is_door is kind]
+        for kind in (True, False)
     )
+    return shapely.union_all([*glazed, *named]), shapely.union_all(doors)
+
+
+def building(walls: shapely.Geometry, gap: float) -> shapely.Geometry:
+    """Return all that lies within the outer walls, openings up to a gap wide closed."""
+    grown = shapely.buffer(parts_of(walls), gap / 2.0, quad_segs=2)
+    outlines = [shapely.Polygon(part.exterior) for part in parts_of(shapely.union_all(grown))]
+    return shapely.buffer(shapely.union_all(outlines), -gap / 2.0, join_style="mitre")
