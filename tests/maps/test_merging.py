@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.maps import DecompositionSettings, SchematicMap, decompose
+from pilotage.maps import DecompositionSettings, Label, SchematicMap, decompose
 from pilotage.maps.cells.narrowings import find_jambs
 from pilotage.maps.cells.tessellation import tessellate
 
@@ -73,3 +74,44 @@ def test_pieces_cover_what_walls_enclose_and_openings_lie_between_them():
     left, right = (tessellation.pieces[side].centroid for side in tessellation.sides[0])
     along = tessellation.chords[0, 1] - tessellation.chords[0, 0]
     assert along[0] * (left.y - right.y) - along[1] * (left.x - right.x) > 0.0
+
+
+def thick(free, labels=()):
+    """A plan of thick walls about what is free: rectangles, by left, bottom, right and top."""
+    space = shapely.union_all([shapely.box(*sides) for sides in free])
+    outer = shapely.box(*space.bounds).buffer(0.5, join_style="mitre")
+    rings = [outer.exterior, *(ring for part in shapely.get_parts(space) for ring in outline_of(part))]
+    lines = tuple(Polyline(shapely.get_coordinates(ring)[:-1], closed=True) for ring in rings)
+    return decompose(SchematicMap(lines, solids=lines, labels=labels), DecompositionSettings())
+
+
+def outline_of(shape):
+    return shape.exterior, *shape.interiors
+
+
+CORRIDOR = [(0, 0, 12, 2), (12, 0, 16, 4), (14, 4, 16, 14)]  # it widens, and turns
+OFFICES = [(0, 2.5, 5, 8), (5.5, 2.5, 11, 8), (8, 8.5, 13.5, 13.5)]
+DOORS = [(2, 2, 3, 2.5), (8, 2, 9, 2.5), (13.5, 10, 14, 11)]
+
+
+def test_a_corridor_that_widens_and_turns_is_one_cell_between_thick_walls():
+    graph = thick([*CORRIDOR, *OFFICES, *DOORS])
+
+    assert 4 == len(graph.cells)
+    assert 3 == max(len(graph.gateways_of(cell.cell_id)) for cell in graph.cells)
+
+
+def test_two_names_in_a_corridor_keep_its_pieces_apart():
+    labels = (Label("east", (2.0, 1.0)), Label("lobby", (14.0, 2.0)))
+
+    assert 4 < len(thick([*CORRIDOR, *OFFICES, *DOORS], labels).cells)
+
+
+def test_a_closet_with_a_name_is_a_cell_however_small():
+    closet = [(11.4, 4, 11.74, 4.34), (11, 4.04, 11.4, 4.3)]
+    name = Label("closet", (11.6, 4.2))
+    office = Label("office", (8.0, 5.0))
+
+    assert "closet" in {
+        cell.label for cell in thick([*CORRIDOR, *OFFICES, *DOORS, *closet], (name, office)).cells
+    }

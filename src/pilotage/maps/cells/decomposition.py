@@ -17,7 +17,7 @@ from pilotage.maps.cells.free_space import (
 )
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.cells.identity import identify
-from pilotage.maps.cells.merging import drop_small, join_thresholds, merge_pieces
+from pilotage.maps.cells.merging import drop_small, join_corridors, join_thresholds, merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
@@ -55,11 +55,15 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     out is too small, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
     """
     space = free_space(sketch, settings)
-    regions = merge_pieces(space.tessellation, space.inside, settings.min_cell_area)  # section 4.1: merging
+    named = holds_any(space.tessellation, sketch.labels if sketch.solids else ())
+    regions = merge_pieces(
+        space.tessellation, space.inside, named, settings.min_cell_area
+    )  # section 4.1: merging
     if sketch.solids:
         regions = join_thresholds(space.tessellation, regions)
+        regions = join_corridors(space.tessellation, regions, named)
     regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
-    regions = drop_small(space.tessellation, regions, settings.min_cell_area)
+    regions = drop_small(space.tessellation, regions, named, settings.min_cell_area)
     if not (regions >= 0).any():
         raise NoDoorsError(NO_DOORS)
     numbers, polygons = outlines(space.tessellation, regions)
@@ -68,6 +72,15 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     ids = identify(polygons, words, diameter, sketch.file_axes)
     gateways = find_gateways(space.tessellation, regions, dict(zip(numbers, ids, strict=True)))
     return Division(space, CellGraph(new_cells(polygons, ids, words), gateways, diameter))
+
+
+def holds_any(tessellation: Tessellation, labels: Sequence[Label]) -> NDArray[np.bool_]:
+    """Tell which pieces hold a label, (p,)."""
+    found = np.zeros(len(tessellation.pieces), dtype=bool)
+    if labels:
+        points = shapely.points([label.position for label in labels])
+        found[shapely.STRtree(tessellation.pieces).query(points, predicate="intersects")[1]] = True
+    return found
 
 
 def outlines(

@@ -24,16 +24,24 @@ THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
 """A threshold is no deeper than its doors are wide, and these are this share of its own width."""
 
 
+CORRIDOR_NARROWING, CORRIDOR_MOUTH, CORRIDOR_WIDTH = 1.25, 2.3, 2.5
+"""A corridor leads on where neither side is so many times as wide as the opening, the narrower and the wider
+one, and is wider than a door, but less than so many doors."""
+
+
 class Regions:
     """Growing regions of pieces, and the chords that lie between each two."""
 
-    def __init__(self, tessellation: Tessellation, among: NDArray[np.bool_]) -> None:
+    def __init__(
+        self, tessellation: Tessellation, among: NDArray[np.bool_], named: NDArray[np.bool_]
+    ) -> None:
         self.reaches: list[float] = tessellation.reaches.tolist()
         self.areas: list[float] = tessellation.areas.tolist()
         self.widths: list[float] = tessellation.widths.tolist()
         self.jambs: list[float] = tessellation.jambs.tolist()
         self.region_of = np.where(among, np.arange(len(among)), -1)
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
+        self.named: list[bool] = named.tolist()
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
             first, second = tessellation.sides[chord].tolist()
@@ -44,7 +52,7 @@ class Regions:
         """Tell how much the openings between two regions separate them; below 1 they are merged (4.1)."""
         smaller = min(self.areas[first], self.areas[second])
         least = min_area * total
-        if smaller < least:
+        if smaller < least and not (self.named[first] and self.named[second]):
             return smaller / least
         chords = self.chords_to[first][second]
         opening = sum(self.widths[chord] for chord in chords)
@@ -62,6 +70,7 @@ class Regions:
         self.region_of[self.region_of == second] = first
         self.reaches[first] = max(self.reaches[first], self.reaches[second])
         self.areas[first] += self.areas[second]
+        self.named[first] |= self.named[second]
         for other, chords in self.chords_to[second].items():
             del self.chords_to[other][second]
             if other != first:
@@ -73,9 +82,14 @@ class Regions:
         self.age[second] = -1
 
 
-def merge_pieces(tessellation: Tessellation, among: NDArray[np.bool_], min_area: float) -> NDArray[np.int64]:
-    """Merge pieces, the weakest opening first; return the region of each, (p,), -1 for the rest (4.1)."""
-    regions = Regions(tessellation, among)
+def merge_pieces(
+    tessellation: Tessellation, among: NDArray[np.bool_], named: NDArray[np.bool_], min_area: float
+) -> NDArray[np.int64]:
+    """Merge pieces, the weakest opening first; return the region of each, (p,), -1 for the rest (4.1).
+
+    `named` tells in which pieces (p,) a name stands: what is small is not merged into what has another name.
+    """
+    regions = Regions(tessellation, among, named)
     total = float(tessellation.areas[among].sum())
     queue: list[tuple[float, int, int, int]] = []
 
@@ -116,11 +130,57 @@ def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> N
     return joined
 
 
-def drop_small(tessellation: Tessellation, regions: NDArray[np.int64], min_area: float) -> NDArray[np.int64]:
-    """Drop regions that are still too small because nothing opens to them: -1."""
+def join_corridors(
+    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    """Join the pieces of corridors: what leads on through an opening as wide as itself, without a door.
+
+    Where walls have a thickness a door shows as a narrowing of both sides; a corridor that turns, branches or
+    widens hardly narrows. A niche leads nowhere and stays what it is, and so does a wide room with a name.
+    Two names are never joined; `named` tells in which pieces (p,) one stands.
+    """
+    reaches = np.zeros(len(regions))
+    np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
+    has_name = np.zeros(len(regions), dtype=bool)
+    has_name[regions[named & (regions >= 0)]] = True
+    borders, openings = borders_of(tessellation, regions)
+    narrow, wide = np.sort(reaches[borders], axis=1).T
+    is_door = narrow >= NARROWING * openings
+    if not is_door.any():
+        return regions
+    door = float(np.median(openings[is_door]))
+    is_niche = (np.bincount(borders.ravel())[borders] == 1).any(axis=1) & ~is_door
+    leads_on = np.bincount(borders[~is_niche].ravel(), minlength=len(regions)) > 1
+    is_room = has_name & (reaches > CORRIDOR_WIDTH * door)
+    is_same = (narrow < CORRIDOR_NARROWING * openings) & (wide < CORRIDOR_MOUTH * openings)
+    is_same &= (openings > door) & (openings < CORRIDOR_WIDTH * door)
+    is_same &= (leads_on & ~is_room)[borders].all(axis=1)
+    joined = np.arange(len(regions))
+    for first, second in joined[borders[is_same][np.argsort(-openings[is_same], kind="stable")]]:
+        one, other = joined[first], joined[second]
+        if one != other and not (has_name[one] and has_name[other]):
+            has_name[one] |= has_name[other]
+            joined[joined == other] = one
+    return np.where(regions >= 0, joined[regions], -1)
+
+
+def borders_of(tessellation: Tessellation, regions: NDArray[np.int64]) -> tuple[NDArray[np.int64], Array]:
+    """List the pairs of regions with openings between them, (n, 2), and how wide these are together, (n,)."""
+    sides = regions[tessellation.sides]
+    between = (sides >= 0).all(axis=1) & (sides[:, 0] != sides[:, 1])
+    borders, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
+    openings = np.bincount(owner.ravel(), tessellation.widths[between], minlength=len(borders))
+    return borders, openings.astype(np.float64)
+
+
+def drop_small(
+    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_], min_area: float
+) -> NDArray[np.int64]:
+    """Drop regions that are still too small because nothing opens to them, and have no name: -1."""
     areas = region_areas(tessellation, regions)
     numbers = np.flatnonzero(areas > 0.0)
     small = numbers[areas[numbers] < min_area * areas.sum()]
+    small = np.setdiff1d(small, regions[named])
     return np.where(np.isin(regions, small), -1, regions)
 
 
