@@ -101,6 +101,16 @@ def test_a_corridor_that_widens_and_turns_is_one_cell_between_thick_walls():
     assert 3 == max(len(graph.gateways_of(cell.cell_id)) for cell in graph.cells)
 
 
+def test_two_doors_of_one_room_are_no_wide_opening_but_gaps_between_columns_are():
+    rooms = [(0, 0, 12, 2), (2, 2.5, 10, 5)]
+    doors = [(3, 2, 4.2, 2.5), (7.8, 2, 9, 2.5)]
+    halls = [(0, 0, 12, 2.8), (0, 3.2, 12, 6)]
+    between_columns = [(2.0 * k, 2.8, 2.0 * k + 1.6, 3.2) for k in range(6)]
+
+    assert 2 == len(thick([*rooms, *doors]).cells)
+    assert 1 == len(thick([*halls, *between_columns]).cells)
+
+
 def test_two_names_in_a_corridor_keep_its_pieces_apart():
     labels = (Label("east", (2.0, 1.0)), Label("lobby", (14.0, 2.0)))
 

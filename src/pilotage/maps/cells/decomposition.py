@@ -56,9 +56,9 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     """
     space = free_space(sketch, settings)
     named = holds_any(space.tessellation, sketch.labels if sketch.solids else ())
-    regions = merge_pieces(
-        space.tessellation, space.inside, named, settings.min_cell_area
-    )  # section 4.1: merging
+    regions = merge_pieces(  # section 4.1: merging
+        space.tessellation, space.inside, named, settings.min_cell_area, solids_known=bool(sketch.solids)
+    )
     if sketch.solids:
         regions = join_thresholds(space.tessellation, regions)
         regions = join_corridors(space.tessellation, regions, named)

@@ -4,8 +4,10 @@ An opening separates two cells if it narrows, has depth behind it, or stands bet
 """
 
 import heapq
+from collections.abc import Sequence
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
@@ -24,16 +26,24 @@ THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
 """A threshold is no deeper than its doors are wide, and these are this share of its own width."""
 
 
-CORRIDOR_NARROWING, CORRIDOR_MOUTH, CORRIDOR_WIDTH = 1.25, 2.3, 2.5
-"""A corridor leads on where neither side is so many times as wide as the opening, the narrower and the wider
-one, and is wider than a door, but less than so many doors."""
+COLUMN = 0.5
+"""What parts two openings is a column, no wall, if it is no wider than this share of one of them."""
+
+CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
+"""A corridor leads on where its wider side is less than so many times as wide as the opening, and the opening
+less than so many doors wide."""
 
 
 class Regions:
     """Growing regions of pieces, and the chords that lie between each two."""
 
     def __init__(
-        self, tessellation: Tessellation, among: NDArray[np.bool_], named: NDArray[np.bool_]
+        self,
+        tessellation: Tessellation,
+        among: NDArray[np.bool_],
+        named: NDArray[np.bool_],
+        *,
+        solids_known: bool,
     ) -> None:
         self.reaches: list[float] = tessellation.reaches.tolist()
         self.areas: list[float] = tessellation.areas.tolist()
@@ -42,6 +52,7 @@ class Regions:
         self.region_of = np.where(among, np.arange(len(among)), -1)
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
         self.named: list[bool] = named.tolist()
+        self.beside = neighbors(tessellation) if solids_known else None
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
             first, second = tessellation.sides[chord].tolist()
@@ -55,7 +66,7 @@ class Regions:
         if smaller < least and not (self.named[first] and self.named[second]):
             return smaller / least
         chords = self.chords_to[first][second]
-        opening = sum(self.widths[chord] for chord in chords)
+        opening = self.widest_opening(chords)
         narrow, wide = sorted((self.reaches[first], self.reaches[second]))
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
         jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
@@ -64,6 +75,22 @@ class Regions:
             min(mouth / MOUTH, depth / MOUTH_DEPTH),
             min(jambs / JAMBS, narrowing / JAMBS_NARROWING, depth / JAMBS_DEPTH),
         )
+
+    def widest_opening(self, chords: Sequence[int]) -> float:
+        """Add up the widths of chords, where solids are known of those that only columns part: the most."""
+        if self.beside is None or len(chords) == 1:
+            return sum(self.widths[chord] for chord in chords)
+        left, most = set(chords), 0.0
+        while left:
+            front, total = [left.pop()], 0.0
+            while front:
+                chord = front.pop()
+                total += self.widths[chord]
+                beside = self.beside.get(chord, set()) & left
+                left -= beside
+                front.extend(beside)
+            most = max(most, total)
+        return most
 
     def absorb(self, first: int, second: int) -> None:
         """Let the first region take in the second."""
@@ -82,14 +109,33 @@ class Regions:
         self.age[second] = -1
 
 
+def neighbors(tessellation: Tessellation) -> dict[int, set[int]]:
+    """Find for each chord the others that no more than a column parts from it."""
+    lines = shapely.linestrings(tessellation.chords)
+    reach = COLUMN * tessellation.widths
+    found: dict[int, set[int]] = {}
+    first, second = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
+    for one, other in zip(first.tolist(), second.tolist(), strict=True):
+        if one != other:
+            found.setdefault(one, set()).add(other)
+            found.setdefault(other, set()).add(one)
+    return found
+
+
 def merge_pieces(
-    tessellation: Tessellation, among: NDArray[np.bool_], named: NDArray[np.bool_], min_area: float
+    tessellation: Tessellation,
+    among: NDArray[np.bool_],
+    named: NDArray[np.bool_],
+    min_area: float,
+    *,
+    solids_known: bool,
 ) -> NDArray[np.int64]:
     """Merge pieces, the weakest opening first; return the region of each, (p,), -1 for the rest (4.1).
 
     `named` tells in which pieces (p,) a name stands: what is small is not merged into what has another name.
+    Two doors beside each other are no wide opening if `solids_known`: else a hand may have broken the line.
     """
-    regions = Regions(tessellation, among, named)
+    regions = Regions(tessellation, among, named, solids_known=solids_known)
     total = float(tessellation.areas[among].sum())
     queue: list[tuple[float, int, int, int]] = []
 
@@ -152,8 +198,7 @@ def join_corridors(
     is_niche = (np.bincount(borders.ravel())[borders] == 1).any(axis=1) & ~is_door
     leads_on = np.bincount(borders[~is_niche].ravel(), minlength=len(regions)) > 1
     is_room = has_name & (reaches > CORRIDOR_WIDTH * door)
-    is_same = (narrow < CORRIDOR_NARROWING * openings) & (wide < CORRIDOR_MOUTH * openings)
-    is_same &= (openings > door) & (openings < CORRIDOR_WIDTH * door)
+    is_same = ~is_door & (wide < CORRIDOR_MOUTH * openings) & (openings < CORRIDOR_WIDTH * door)
     is_same &= (leads_on & ~is_room)[borders].all(axis=1)
     joined = np.arange(len(regions))
     for first, second in joined[borders[is_same][np.argsort(-openings[is_same], kind="stable")]]:
