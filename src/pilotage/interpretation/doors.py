@@ -119,17 +119,26 @@ def arcs_of(mark: Mark) -> list[Arc]:
 
 def without_twins(arcs: Sequence[tuple[Arc, int]]) -> list[tuple[Arc, tuple[int, ...]]]:
     """Keep the widest of arcs that draw the same door, with the marks of all."""
-    kept: list[tuple[Arc, list[int]]] = []
-    for arc, place in sorted(arcs, key=lambda item: -item[0].radius):
-        slack = TWINS * arc.radius
-        for other, marks in kept:
-            gap = min(np.abs(arc.ends - other.ends).max(), np.abs(arc.ends - other.ends[::-1]).max())
-            if gap < slack and np.abs(arc.center - other.center).max() < slack:
-                marks.append(place)
+    ordered = sorted(arcs, key=lambda item: -item[0].radius)
+    centers = np.array([arc.center for arc, _ in ordered]).reshape(-1, 2)
+    slack = TWINS * np.array([[arc.radius] for arc, _ in ordered]).reshape(-1, 1)
+    around = shapely.box(*np.hstack([centers - slack, centers + slack]).T)
+    first, second = shapely.STRtree(shapely.points(centers)).query(around)
+    earlier = second < first
+    wider: dict[int, list[int]] = {}
+    for rank, other in sorted(zip(first[earlier].tolist(), second[earlier].tolist(), strict=True)):
+        wider.setdefault(rank, []).append(other)
+    kept: dict[int, list[int]] = {}
+    for rank, (arc, place) in enumerate(ordered):
+        for other in wider.get(rank, []):
+            ends = ordered[other][0].ends
+            gap = min(np.abs(arc.ends - ends).max(), np.abs(arc.ends - ends[::-1]).max())
+            if other in kept and gap < TWINS * arc.radius:
+                kept[other].append(place)
                 break
         else:
-            kept.append((arc, [place]))
-    return [(arc, tuple(sorted(set(marks)))) for arc, marks in kept]
+            kept[rank] = [place]
+    return [(ordered[rank][0], tuple(sorted(set(marks)))) for rank, marks in kept.items()]
 
 
 def judge(arc: Arc, segments: Segments) -> tuple[NDArray[np.bool_], Array]:

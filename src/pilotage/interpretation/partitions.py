@@ -28,9 +28,10 @@ def find_partitions(
     closing = [shapely.LineString([door.hinge, door.latch]) for door in doors]
     noded = shapely.union_all([loose, shapely.boundary(body), *closing], grid_size=TOUCHING * width / 4.0)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
-    inner = ~shapely.contains(body, shapely.point_on_surface(faces))
-    narrow = shapely.is_empty(shapely.buffer(faces, -ROOM_WIDTH * width / 2.0))
-    rooms = faces[inner & ~narrow & (shapely.area(faces) >= ROOM_AREA * width**2)]
+    large = faces[shapely.area(faces) >= ROOM_AREA * width**2]  # first: most faces are pieces of furniture
+    inner = ~shapely.contains(body, shapely.point_on_surface(large))
+    narrow = shapely.is_empty(shapely.buffer(large, -ROOM_WIDTH * width / 2.0))
+    rooms = large[inner & ~narrow]
     if len(rooms) < 2:
         return NOTHING
     borders = shapely.boundary(rooms)
