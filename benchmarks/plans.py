@@ -13,7 +13,7 @@ names: the cell of a room bears its name, case, accents, areas and sizes apart; 
 the file as text. Pictures are not counted: their words are pixels.
 
 connections: pairs of rooms that gateways join, through nothing but unnamed small cells, against those that a
-person reads. A cell without a name and a room's point is a piece of the cell to which it opens all along.
+person reads.
 
 A file that cannot be read, or takes a minute, counts 0. Seconds are of the processor, from opening the file
 to the cells; MB is the peak of the process, libraries included.

@@ -16,16 +16,12 @@ import shapely
 
 from benchmarks.lib.data import DATA, ROOT
 from pilotage.errors import FileError, PilotageError
-from pilotage.maps import CellGraph
 
 LIMIT_S = 60
 """A drawing that takes more time of the processor counts as not read."""
 
 PATIENCE = 20.0
 """How many times longer it may take by the clock, on a machine that does other things too."""
-
-ALL_ALONG = 0.8
-"""A cell opens all along if the opening is this share of the cell's own width: a door is narrower."""
 
 TOO_SLOW = f"takes more than {LIMIT_S} s"
 
@@ -40,7 +36,6 @@ class Division:
     labels: tuple[str, ...] = ()  # one for each cell, empty if it has none
     small: tuple[bool, ...] = ()  # one for each cell: a scrap, as `CellSize.SMALL` says
     gateways: tuple[tuple[int, int], ...] = ()  # pairs of cells
-    part_of: tuple[int, ...] = ()  # one for each cell: the cell that it opens to all along, else itself
     seconds: float = 0.0  # from opening the file to the cells, libraries and kernels loaded
     mb: float = 0.0  # peak of the process
     error: str = ""  # one line
@@ -63,14 +58,7 @@ def divide(path: Path) -> Division:
     found = json.loads(done.stdout.splitlines()[-1])
     cells = tuple(shapely.Polygon(rings[0], rings[1:]) for rings in found.pop("rings"))
     gateways = tuple((first, second) for first, second in found.pop("gateways"))
-    return Division(
-        cells,
-        tuple(found.pop("labels")),
-        tuple(found.pop("small")),
-        gateways,
-        tuple(found.pop("part_of")),
-        **found,
-    )
+    return Division(cells, tuple(found.pop("labels")), tuple(found.pop("small")), gateways=gateways, **found)
 
 
 def main() -> None:
@@ -103,27 +91,10 @@ def main() -> None:
         "labels": [cell.label for cell in graph.cells],
         "small": [cell.size is CellSize.SMALL for cell in graph.cells],
         "gateways": [[index[name] for name in gateway.cell_ids] for gateway in graph.gateways],
-        "part_of": parts_of(graph),
         "seconds": seconds,
         "mb": peak_mb(),
     }
     print(json.dumps(found))
-
-
-def parts_of(graph: CellGraph) -> list[int]:
-    """Tell for each cell to which other one it opens all along: no door is there. Itself if to none."""
-    parts = []
-    for number, cell in enumerate(graph.cells):
-        width = 2.0 * shapely.maximum_inscribed_circle(cell.polygon).length
-        ways = [
-            (gateway.width, graph.index_from_id[other])
-            for gateway in graph.gateways_of(cell.cell_id)
-            for other in gateway.cell_ids
-            if other != cell.cell_id
-        ]
-        widest, other = max(ways, default=(0.0, number))
-        parts.append(other if widest >= ALL_ALONG * width else number)
-    return parts
 
 
 def name_of(path: Path) -> str:
@@ -133,7 +104,7 @@ def name_of(path: Path) -> str:
 
 def unread(error: str, seconds: float) -> dict[str, object]:
     """Describe a drawing that could not be divided."""
-    nothing: dict[str, object] = {"rings": [], "labels": [], "small": [], "gateways": [], "part_of": []}
+    nothing: dict[str, object] = {"rings": [], "labels": [], "small": [], "gateways": []}
     return {**nothing, "seconds": seconds, "mb": peak_mb(), "error": " ".join(error.split())}
 
 

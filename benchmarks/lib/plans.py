@@ -345,8 +345,7 @@ def connections(
     """Count the connections that are right, those that are claimed, and those that a person reads.
 
     Rooms are joined if gateways lead from one's cell to the other's, also through scraps: small cells without
-    a name that hold no room's point. A cell of any size without a name and a point is a piece of the cell to
-    which it opens all along. Rooms that are wrongly one cell claim all that the cell claims. Rooms of
+    a name that hold no room's point. Rooms that are wrongly one cell claim all that the cell claims. Rooms of
     an open space that are one cell count as one room, and the connection between them as found.
     """
     drawn = {frozenset(open_to[room] for room in pair) for pair in plan.connections}
@@ -359,8 +358,7 @@ def connections(
         if cell >= 0:
             rooms_of.setdefault(cell, set()).add(open_to[room])
     beside: dict[int, set[int]] = {}
-    whole = wholes(division, rooms_of)
-    for first, second in ((whole[first], whole[second]) for first, second in division.gateways):
+    for first, second in division.gateways:
         beside.setdefault(first, set()).add(second)
         beside.setdefault(second, set()).add(first)
     claimed = {
@@ -372,17 +370,6 @@ def connections(
         if one != other
     }
     return len(claimed & drawn) + inner, len(claimed) + inner, len(drawn) + inner
-
-
-def wholes(division: Division, rooms_of: dict[int, set[int]]) -> list[int]:
-    """Tell of which cell each is a piece, itself if of none: pieces of a corridor without a name are it."""
-    whole = list(range(len(division.cells)))
-    for cell, other in enumerate(division.part_of):
-        if not division.labels[cell] and cell not in rooms_of:
-            whole[cell] = other
-    for _ in whole:  # pieces of pieces
-        whole = [whole[other] if whole[whole[other]] != cell else other for cell, other in enumerate(whole)]
-    return whole
 
 
 def reachable_rooms(

@@ -61,17 +61,6 @@ def test_rooms_are_joined_through_unnamed_scraps_only(small, label, hits):
     assert score(plan_of_two(), division).hits == hits
 
 
-def test_an_unnamed_piece_of_a_room_is_the_room_and_a_named_one_is_not():
-    cells = (LEFT, RIGHT, SCRAP)
-    ways = ((0, 2), (1, 2))
-    piece, lobby = (
-        Division(cells, ("", "", label), (False,) * 3, ways, (0, 1, 0)) for label in ("", "Lobby")
-    )
-
-    assert score(plan_of_two(), piece).hits == 1
-    assert score(plan_of_two(), lobby).hits == 0
-
-
 def test_a_file_that_cannot_be_read_scores_nothing():
     figures = score(plan_of_two(), Division(error="no")).figures
 
