@@ -12,6 +12,7 @@ from pilotage.localization import Estimate, Localizer, LocalizerSettings
 from pilotage.maps import Atlas
 from pilotage.navigation import Navigator, NavigatorSettings, Step, Tour
 from pilotage.navigation.dead_reckoning import DeadReckoning
+from pilotage.navigation.plan import Plan
 from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry, Reading
 
@@ -78,6 +79,20 @@ class Session:
         """The ids of the gateways that were found blocked on this drive, or else on the last."""
         return self._blocked if self._navigator is None else self._navigator.blocked
 
+    @property
+    def position(self) -> DeadReckoning:
+        """Where the robot is believed to be, at every scan."""
+        return self._reckoning if self._navigator is None else self._navigator.position
+
+    @property
+    def plan(self) -> Plan | None:
+        """What the robot does; None without a goal."""
+        return None if self._navigator is None else self._navigator.plan
+
+    def forget_blocked(self) -> None:
+        """Take all gateways as open again."""
+        self._blocked, self._navigator = (), None
+
     def set_goal(self, goal: Goal | None) -> str:
         """Drive there from now on, or stop; return why not if it cannot be, else nothing."""
         if goal is None:
@@ -94,13 +109,13 @@ class Session:
 
     def set_start(self, pose: Pose2) -> str:
         """Begin anew at a pose of the frame `map`; return why not if it cannot be, else nothing."""
+        return self.begin_at(self.frame.to_file(pose))
+
+    def begin_at(self, start: tuple[float, float, float]) -> str:
+        """Begin anew at x, y and heading in the axes of the drawing's file; return why not, else nothing."""
         try:
             self._localizer = Localizer(
-                self.atlas,
-                self._settings[0],
-                seed=self._seed,
-                start=self.frame.to_file(pose),
-                scale=self._scale,
+                self.atlas, self._settings[0], seed=self._seed, start=start, scale=self._scale
             )
         except (PilotageError, ValueError) as error:
             return f"this is no start: {error}"
