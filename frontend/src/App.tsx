@@ -9,6 +9,7 @@ import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView, type Fate } from "./DriveView";
+import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
@@ -263,10 +264,11 @@ export function App() {
             <span data-testid="hover">{bottomLine}</span>
           </div>
         </div>
-        {drive && <DriveView drive={drive} fate={fate} send={send} onGoal={(goal) => { send({ type: "goal", goal }); setFate("none"); }} />}
+        {drive && <DriveView drive={drive} fate={fate} send={send} onGoal={(goal) => { send({ type: "goal", goal }); setFate("none"); }} onPlace={() => setFate("none")} />}
       </main>
 
-      {drive && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
+      {drive?.session?.kind === "robot" && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
+      {drive && drive.session?.kind !== "robot" && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}

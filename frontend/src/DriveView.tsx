@@ -3,17 +3,19 @@ import { useRef, useState } from "react";
 import { percent } from "./numbers";
 import { COLOR, disc, dots, line, robot, segments, star, words, type Brush } from "./paint";
 import { PlanCanvas } from "./PlanCanvas";
+import { startByArrow } from "./startByArrow";
 import type { Drive, Order } from "./useDrive";
 import type { Point, Pose, Segment, WayPoint } from "./types";
 
-export type Fate = "none" | "goal" | "door" | "box" | "person";
+export type Fate = "none" | "goal" | "door" | "box" | "person" | "start";
 
 const GRAB_PX = 26; // how near the robot a press takes it up
 const TRAIL_POINTS = 2000;
 const CARRIED = 2.5; // from frame to frame, that no robot drives [m]
 
-export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: Fate; send: (order: Order) => void; onGoal: (at: Point) => void }) {
+export function DriveView({ drive, fate, send, onGoal, onPlace }: { drive: Drive; fate: Fate; send: (order: Order) => void; onGoal: (at: Point) => void; onPlace: () => void }) {
   const [carried, setCarried] = useState<Point | null>(null);
+  const [arrow, setArrow] = useState<Pose | null>(null);
   const trail = useTrail(drive);
   const { session, frame, world } = drive;
   const believed = frame?.believed;
@@ -41,6 +43,7 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
       robot(brush, believed.pose, believed.status === "located" ? COLOR.accent : "#e79a3c");
     }
     if (session?.drawing.goal) star(brush, session.drawing.goal);
+    if (arrow) robot(brush, arrow, COLOR.goal, 28, 0.7);
   };
 
   const paintWorld = (brush: Brush) => {
@@ -80,7 +83,8 @@ export function DriveView({ drive, fate, send, onGoal }: { drive: Drive; fate: F
           bounds={session?.drawing.bounds ?? [0, 0, 1, 1]}
           paint={paintBelieved}
           onPress={(at) => fate === "goal" && onGoal(at)}
-          cursor={fate === "goal" ? "crosshair" : "grab"}
+          {...startByArrow(fate, send, onPlace, setArrow)}
+          cursor={fate === "goal" || fate === "start" ? "crosshair" : "grab"}
         />
       </figure>
       {world && (

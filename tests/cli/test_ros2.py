@@ -42,3 +42,22 @@ def test_the_transport_is_the_one_that_was_asked_for(transport, home, monkeypatc
     monkeypatch.setattr(f"pilotage.ros.{home}", lambda *words: (transport, *words))
 
     assert (transport, 7, "robot1") == Link(7, "robot1", Transport(transport)).join()
+
+
+@pytest.mark.parametrize(
+    ("words", "rule"),
+    [
+        (
+            ("--drive", "--radius", "0.2", "--speed", "1", "--turn-rate", "1", "--braking", "1"),
+            "it needs --ros2",
+        ),
+        (("--ros2", *DRIVE), "must be given to drive"),
+        (("--ros2", "--speed", "nan"), "it must be positive, got nan"),
+        (("--ros2", "--domain", "900"), "less than or equal to 232"),
+    ],
+)
+def test_a_table_by_guessed_limits_is_refused(pilotage, tmp_path, words, rule):
+    outcome = pilotage("table", tmp_path, "--no-browser", *words)
+
+    assert 2 == outcome.code
+    assert rule in " ".join(outcome.err.replace("│", " ").split())

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from pilotage.correction import Sighting, append_sighting
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Twist
 from pilotage.io.bags.belief import Belief, MapFrame, known_scale
@@ -32,6 +33,7 @@ class Told:
     belief: Belief
     map_from_odom: Pose2
     command: Twist
+    scan: LaserScan  # that it was made of
     step: Step | None  # None without a goal
 
 
@@ -47,7 +49,10 @@ class Session:
         start: tuple[float, float, float] | None = None,
         scale: float | None = None,
         resumed: SavedState | None = None,
+        keeps_sightings: bool = False,
     ) -> None:
+        self._keeps_sightings = keeps_sightings
+        self.sightings: list[Sighting] = []  # by which the drawing can be corrected, if they are kept
         self._settings, self._seed, self._scale = settings, seed, scale
         self._blocked: tuple[str, ...] = () if resumed is None else resumed.blocked
         if resumed is None:
@@ -120,6 +125,7 @@ class Session:
         except (PilotageError, ValueError) as error:
             return f"this is no start: {error}"
         self._reckoning = DeadReckoning(self._localizer)
+        self.sightings.clear()  # they are in the frame of the scan matching of before
         return self.set_goal(self.goal)
 
     def goal_at(self, pose: Pose2) -> tuple[float, float]:
@@ -137,13 +143,15 @@ class Session:
         else:
             self._reckoning.update(scan, odometry)
             estimate = self._reckoning.estimate
+        if self._keeps_sightings and self.position.is_fresh:
+            append_sighting(self.sightings, self._localizer, scan)
         self._settle(estimate)
         belief = Belief.of_estimate(estimate, self.frame, reading.scan.stamp)
         if step is not None:
             told = {"behavior": step.behavior.value, "outcome": step.outcome.value if step.outcome else ""}
             belief = replace(belief, values={**belief.values, **told, "reason": step.reason})
         map_from_odom = belief.pose @ reading.odometry.odom_from_base.inverse()
-        return Told(belief, map_from_odom, STILL if step is None else step.command, step)
+        return Told(belief, map_from_odom, STILL if step is None else step.command, scan, step)
 
     def _in_our_time(self, reading: Reading) -> tuple[LaserScan, Odometry]:
         """Shift stamps where the robot's clock was set back."""
