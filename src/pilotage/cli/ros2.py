@@ -1,15 +1,17 @@
 """`pilotage ros2`: localize and drive a live robot of ROS 2."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.correction import write_corrections
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.exits import signals_held
-from pilotage.cli.options import FootprintSize, Scale, Seed, SettingsFile, StartPose, check_positive
+from pilotage.cli.localize import corrected_files
+from pilotage.cli.options import FootprintSize, Force, Scale, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_goals, parse_pose
 from pilotage.cli.robot import (
     Braking,
@@ -27,7 +29,8 @@ from pilotage.cli.robot import (
     chosen_settings,
     limits_of,
 )
-from pilotage.cli.terminal import busy, say
+from pilotage.cli.terminal import busy, check_outputs, say
+from pilotage.errors import PilotageError
 from pilotage.ros.link import Link, Topics, Transport
 
 if TYPE_CHECKING:
@@ -72,6 +75,14 @@ def ros2(
             help="Go on from what was believed at the last stop, if the file is there; save it at the end.",
         ),
     ] = None,
+    corrected_map: Annotated[
+        bool,
+        typer.Option("--corrected-map", help="Say as *map* the drawing bent to the walls seen, in metres."),
+    ] = False,
+    corrected: Annotated[
+        Path | None,
+        typer.Option(help="Where to write that drawing at the end (.svg, or .yaml: a map for nav2)."),
+    ] = None,
     domain: Domain = 0,
     transport: Carrier = Transport.DDS,
     namespace: Namespace = "",
@@ -85,6 +96,7 @@ def ros2(
     shading: Shade = "recognized",
     settings: SettingsFile = None,
     seed: Seed = 0,
+    force: Force = False,
 ) -> None:
     """Localize a live robot of ROS 2 on a drawing, and drive it if that is wanted.
 
@@ -96,6 +108,7 @@ def ros2(
     **Examples:**
 
     - Stand in for AMCL: `pilotage ros2 office.svg --localize-only`
+    - A map that nav2 can plan on: `pilotage ros2 office.svg --localize-only --corrected-map`
     - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
     - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
     - Patrol: `pilotage ros2 office.svg --goal kitchen,hall,store --patrol`
@@ -108,6 +121,7 @@ def ros2(
         raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
     check_tour(goal, patrol=patrol, returns=returns)
     check_positive(scale, "--scale")
+    check_outputs(() if corrected is None else corrected_files(corrected), force=force)
     from pilotage.navigation import Tour
 
     if resume is not None and start is not None:
@@ -123,6 +137,7 @@ def ros2(
         known,
         scale,
         resume=resume,
+        keeps_sightings=corrected_map or corrected is not None,
     )
     topics = Topics(
         scan_topic,
@@ -141,8 +156,13 @@ def ros2(
         Link(domain, namespace, transport).join(), session, topics, lambda text: say(f"pilotage: {text}")
     )
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
-    with saving_at_the_end(session, resume), standing_at_the_end(robot):
-        spin(robot, ends=goal is not None)
+    with (
+        writing_at_the_end(session, corrected),
+        saving_at_the_end(session, resume),
+        correcting(session, wanted=corrected_map) as look,
+        standing_at_the_end(robot),
+    ):
+        spin(robot, look, ends=goal is not None)
 
 
 def check_tour(goal: str | None, *, patrol: bool, returns: bool) -> None:
@@ -161,6 +181,7 @@ def open_session(
     scale: float | None,
     *,
     resume: Path | None = None,
+    keeps_sightings: bool = False,
 ) -> "Session":
     """Prepare the drawing, and compile what a step needs before the robot waits for it."""
     from pilotage.errors import FileError
@@ -181,6 +202,7 @@ def open_session(
                 start=start,
                 scale=scale,
                 resumed=resumed,
+                keeps_sightings=keeps_sightings,
             )
         except OtherDrawingError as error:
             raise FileError(str(error), resume or sketch.source) from error
@@ -212,6 +234,35 @@ def saving_at_the_end(session: "Session", path: Path | None) -> Iterator[None]:
 
 
 @contextlib.contextmanager
+def writing_at_the_end(session: "Session", path: Path | None) -> Iterator[None]:
+    """Write the corrected drawing however the block ends, if a file is given."""
+    try:
+        yield
+    finally:
+        if path is not None:
+            with signals_held():
+                try:
+                    write_corrections(session.atlas, session.sightings, [path])
+                except PilotageError as error:
+                    say(f"pilotage: {error}")
+
+
+@contextlib.contextmanager
+def correcting(session: "Session", *, wanted: bool) -> Iterator[Callable[[], None]]:
+    """Correct the map while the block goes on, if that is wanted; what is given is to be called often."""
+    if not wanted:
+        yield lambda: None
+        return
+    from pilotage.ros.correcting import Correcting
+
+    beside = Correcting(session, lambda text: say(f"pilotage: {text}"))
+    try:
+        yield beside.look
+    finally:
+        beside.close()
+
+
+@contextlib.contextmanager
 def standing_at_the_end(robot: "LiveRobot") -> Iterator[None]:
     """Stop the robot however the block ends."""
     try:
@@ -220,13 +271,14 @@ def standing_at_the_end(robot: "LiveRobot") -> Iterator[None]:
         robot.stop()
 
 
-def spin(robot: "LiveRobot", *, ends: bool) -> None:
+def spin(robot: "LiveRobot", look: Callable[[], None], *, ends: bool) -> None:
     """Go on until the drive is over, if there was a goal from the beginning, else until Ctrl-C."""
     import time
 
     said = time.monotonic()
     while not (ends and robot.is_over):
         robot.spin_once()
+        look()
         if robot.told is not None and time.monotonic() - said >= REPORT_EVERY:
             said = time.monotonic()
             values = robot.told.belief.values

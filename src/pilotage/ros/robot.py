@@ -14,7 +14,9 @@ import numpy as np
 
 from pilotage.geometry import Pose2, Twist
 from pilotage.io.bags import outgoing
+from pilotage.io.bags.bent_frame import BentFrame
 from pilotage.io.bags.frames import frame_name, heading, seconds
+from pilotage.io.bags.ground import Ground
 from pilotage.io.bags.messages import ODOMETRY_TYPE, SCAN_TYPE
 from pilotage.io.bags.recorder import TYPES
 from pilotage.navigation.steering import STILL
@@ -181,7 +183,8 @@ class LiveRobot:
         if self._frame_told is not self.session.frame:
             self._frame_told = self.session.frame
             frame, graph = self.session.frame, self.session.atlas.cell_graph
-            out["map"].publish(outgoing.occupancy_grid(stamp, frame, graph))
+            ground = frame.ground if isinstance(frame, BentFrame) else Ground.drawn(frame, graph)
+            out["map"].publish(outgoing.occupancy_grid(stamp, ground))
             out["drawing"].publish(outgoing.drawing(stamp, frame))
             out["cells"].publish(outgoing.cells(stamp, frame, graph))
         out["tf"].publish(
