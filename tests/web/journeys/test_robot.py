@@ -34,8 +34,8 @@ def robot() -> Iterator[LoopbackRobot]:
 
 
 @pytest.fixture
-def table(tmp_path: Path) -> Iterator[str]:
-    """Address of a table that may drive the robot."""
+def table(tmp_path: Path) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+    """Address of a table that may drive the robot, and its process."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -49,7 +49,7 @@ def table(tmp_path: Path) -> Iterator[str]:
             if caller.connect_ex(("127.0.0.1", port)) == 0:
                 break
         time.sleep(0.1)
-    yield f"http://127.0.0.1:{port}/?token=robot"
+    yield f"http://127.0.0.1:{port}/?token=robot", server
     server.terminate()
     server.wait(30)
 
@@ -79,10 +79,11 @@ def let_drive(page: Page, robot: LoopbackRobot) -> None:
 
 
 def test_a_real_robot_is_watched_driven_by_a_button_and_stopped(
-    browser: Browser, table: str, robot: LoopbackRobot
+    browser: Browser, table: tuple[str, subprocess.Popen[bytes]], robot: LoopbackRobot
 ) -> None:
     context = browser.new_context(viewport={"width": 1280, "height": 900})
-    page = open_page(context, table)
+    address, server = table
+    page = open_page(context, address)
     sheet = Sheet(page)
     page.get_by_role("button", name="office, careful").click()
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
@@ -118,4 +119,7 @@ def test_a_real_robot_is_watched_driven_by_a_button_and_stopped(
     page.close()
     wait_until(other, lambda: not robot.moves)
     expect(other.get_by_test_id("let-drive")).to_be_enabled(timeout=PATIENCE_MS)
+    let_drive(other, robot)
+    server.kill()
+    wait_until(other, lambda: not robot.moves)
     context.close()
