@@ -31,6 +31,7 @@ NAMES = (
     "people",
     "tracking",
     "corrected",
+    "corrected_map",
     "navigation",
     "registration",
     "odometry",
@@ -47,7 +48,7 @@ NAMES = (
     "table",
     "worlds_from_logs",
 )
-WITHOUT_DATA = ("logs", "ros", "shape", "simulation", "soak", "table")
+WITHOUT_DATA = ("corrected_map", "logs", "ros", "shape", "simulation", "soak", "table")
 TOOLS = ("all", "readme", "fetch")
 BESIDE = {
     "json",

@@ -10,6 +10,7 @@ import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView } from "./DriveView";
 import type { Fate } from "./fate";
+import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
@@ -288,7 +289,8 @@ export function App() {
         {drive && <DriveView drive={drive} fate={fate} setFate={setFate} send={send} />}
       </main>
 
-      {drive && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
+      {drive?.session?.kind === "robot" && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
+      {drive && drive.session?.kind !== "robot" && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}

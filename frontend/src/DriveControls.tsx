@@ -67,7 +67,7 @@ export function DriveControls({ drive, fate, setFate, send, restart, leave }: Pr
   );
 }
 
-function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void }) {
+export function Timeline({ drive, send }: { drive: Drive; send: (order: Order) => void }) {
   const [first, last] = drive.recorded;
   const end = Math.max(last, drive.frame?.live ? drive.frame.t : 0, 1);
   const now = drive.frame?.t ?? 0;

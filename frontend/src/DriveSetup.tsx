@@ -14,6 +14,7 @@ export interface Choice {
   tellStart: boolean;
 }
 
+const ROBOT = "robot"; // on the network, among the worlds
 export const FIRST_CHOICE: Choice = { recording: null, world: "", severity: 0.3, seed: 1, speed: 2, tellStart: false };
 export const SPEEDS = [0.5, 1, 2, 5, 10, 20, 50];
 
@@ -43,7 +44,8 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
   }, []);
   const change = (part: Partial<Choice>) => setChoice({ ...choice, ...part });
   const { recording } = choice;
-  const ready = !!recording || hasGoal || goal !== "";
+  const isReal = choice.world === ROBOT && !recording;
+  const ready = isReal || !!recording || hasGoal || goal !== "";
   const known = recording && !recordings.some((one) => one.id === recording.id) ? [recording, ...recordings] : recordings;
   const chooseWorld = (value: string) => {
     if (value === "file") pickFile(RECORDINGS, watch);
@@ -77,7 +79,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
           Driven in
           <select aria-label="Driven in" value={choice.world} onChange={(event) => change({ world: event.target.value })}>
             <option value="">a world not known here</option>
-            {worlds.map((world) => <option key={world.id} value={world.id}>{world.title}</option>)}
+            {worlds.filter((world) => world.id !== ROBOT).map((world) => <option key={world.id} value={world.id}>{world.title}</option>)}
           </select>
         </label>
       )}
@@ -97,25 +99,28 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
           </select>
         </label>
       )}
-      {recording?.kind !== "journal" && (
+      {!isReal && recording?.kind !== "journal" && (
         <label title="another seed is another building, and another try">
           Seed
           <input type="number" min={0} max={99999} value={choice.seed} onChange={(event) => change({ seed: Math.max(0, Math.round(Number(event.target.value))) })} />
         </label>
       )}
-      <label>
-        Speed
-        <select aria-label="Speed" value={choice.speed} onChange={(event) => change({ speed: Number(event.target.value) })}>
-          {SPEEDS.map((speed) => <option key={speed} value={speed}>{speed} x</option>)}
-        </select>
-      </label>
+      {!isReal && (
+        <label>
+          Speed
+          <select aria-label="Speed" value={choice.speed} onChange={(event) => change({ speed: Number(event.target.value) })}>
+            {SPEEDS.map((speed) => <option key={speed} value={speed}>{speed} x</option>)}
+          </select>
+        </label>
+      )}
       {hasStart && !recording && (
         <label className="check">
           <input type="checkbox" checked={choice.tellStart} onChange={(event) => change({ tellStart: event.target.checked })} />
           tell the robot where it starts
         </label>
       )}
-      <button className="primary" type="submit" disabled={!ready} data-testid="go">{recording ? "Watch" : "Go"}</button>
+      <button className="primary" type="submit" disabled={!ready} data-testid="go">{recording ? "Watch" : isReal ? "Join the robot" : "Go"}</button>
+      {isReal && <span className="quiet">Joining moves nothing: it is a dry run until you let the robot drive.</span>}
       {!ready && <span className="quiet">Set a flag with the tool "Goal", or choose a room.</span>}
     </form>
   );

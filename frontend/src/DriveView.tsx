@@ -7,6 +7,7 @@ import { COLOR, disc, dots, line, ring, robot, segments, star, words, type Brush
 import { PlanCanvas, type Aim } from "./PlanCanvas";
 import type { Drive, Order } from "./useDrive";
 import type { Point, Pose, WayPoint } from "./types";
+import { startByArrow } from "./startByArrow";
 import { paintZones } from "./zones";
 
 const GRAB_PX = 26; // how near the robot a press takes it up
@@ -23,6 +24,7 @@ interface Props {
 export function DriveView({ drive, fate, setFate, send }: Props) {
   const [said, setSaid] = useState("");
   const [carried, setCarried] = useState<Point | null>(null);
+  const [arrow, setArrow] = useState<Pose | null>(null);
   const [wantsCorrected, setWantsCorrected] = useState(true);
   const trail = useTrail(drive);
   const { session, frame, world } = drive;
@@ -55,6 +57,7 @@ export function DriveView({ drive, fate, setFate, send }: Props) {
       robot(brush, believed.pose, believed.status === "located" ? COLOR.accent : "#e79a3c");
     }
     if (session?.drawing.goal) star(brush, session.drawing.goal);
+    if (arrow) robot(brush, arrow, COLOR.goal, 28, 0.7);
   };
 
   const paintWorld = (brush: Brush) => {
@@ -121,7 +124,8 @@ export function DriveView({ drive, fate, setFate, send }: Props) {
           paint={paintBelieved}
           onPress={pressDrawing}
           aim={fate === "goal" ? aim(believedAt, pressDrawing, (at) => whereOnDrawing(at, session)) : undefined}
-          cursor={fate === "goal" ? "crosshair" : "grab"}
+          {...startByArrow(fate, send, () => setFate("none"), setArrow)}
+          cursor={fate === "goal" || fate === "start" ? "crosshair" : "grab"}
         />
       </figure>
       {world && (

@@ -18,7 +18,7 @@ const KEPT: Kept[] = [
   { path: "film", file: "drive.gif", text: "GIF", of: ["drive"] },
   { path: "picture", file: "drive.png", text: "Picture", of: ["drive"] },
   { path: "journal", file: "journal.jsonl", text: "Journal", of: ["drive"] },
-  { path: "corrected", file: "corrected.svg", text: "Corrected drawing", of: ["drive", "log"] },
+  { path: "corrected", file: "corrected.svg", text: "Corrected drawing", of: ["drive", "log", "robot"] },
 ];
 
 export function TakeAlong({ drive, send }: { drive: Drive; send: (order: Order) => void }) {

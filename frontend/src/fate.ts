@@ -1,7 +1,7 @@
 // What a person may do to a drive, and where in words: for those who do it by keyboard and hear the page.
 import type { Point, Segment, Session, World } from "./types";
 
-export type Fate = "none" | "goal" | "carry" | "door" | "box" | "person";
+export type Fate = "none" | "goal" | "carry" | "door" | "box" | "person" | "start";
 
 export const FATES: { fate: Fate; text: string; hint: string }[] = [
   { fate: "goal", text: "New goal", hint: "click a place on the drawing, or arrow keys and Enter" },

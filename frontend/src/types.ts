@@ -133,13 +133,21 @@ export interface WayPoint {
 
 export interface Session {
   session: string;
-  kind: "drive" | "log" | "journal";
+  kind: "drive" | "log" | "journal" | "robot";
   title: string;
   drawing: { bounds: [number, number, number, number]; strokes: Stroke[]; labels: Upload["labels"]; zones: Zones; goal: Point | null };
   way?: WayPoint[]; // of a journal
   speed: number;
   paused: boolean;
   over: boolean;
+}
+
+/** How it is with a robot on the network. */
+export interface RobotState {
+  can_drive: boolean;
+  drives: boolean;
+  trouble: string; // why it must stand
+  goal: string;
 }
 
 export interface WorldChoice {

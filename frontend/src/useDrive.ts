@@ -1,6 +1,6 @@
 // One drive over a websocket: what the server told last, and how to tell it something. Reconnects and resumes by itself.
 import { useCallback, useEffect, useRef, useState } from "react";
-import type { Corrected, Frame, Mark, Session, World } from "./types";
+import type { Corrected, Frame, Mark, RobotState, Session, World } from "./types";
 
 const RETRY_MS = [300, 1000, 2000, 5000];
 
@@ -17,11 +17,13 @@ export interface Drive {
   error: string;
   fatal: boolean;
   connected: boolean;
+  robot: RobotState | null; // of a robot on the network
+  commands: boolean; // whether this page commands it
 }
 
 const NONE: Drive = {
   session: null, world: null, corrected: null, frame: null, marks: [], paused: false, speed: 1, recorded: [0, 0],
-  done: null, error: "", fatal: false, connected: false,
+  done: null, error: "", fatal: false, connected: false, robot: null, commands: false,
 };
 
 export type Order = { type: string } & Record<string, unknown>;
@@ -119,8 +121,11 @@ function heard(drive: Drive, message: Record<string, unknown> & { type: string }
         paused: message.paused as boolean,
         speed: message.speed as number,
         done: message.over ? drive.done : null,
+        robot: (message.robot as RobotState | undefined) ?? null,
         recorded: (message.recorded as [number, number] | null) ?? drive.recorded,
       };
+    case "command":
+      return { ...drive, commands: message.holds === true };
     case "done":
       return { ...drive, done: { outcome: message.outcome as string, text: message.text as string } };
     case "error":

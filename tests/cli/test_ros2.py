@@ -3,7 +3,7 @@
 import pytest
 
 from pilotage import worlds
-from pilotage.cli.ros2 import Transport, joined
+from pilotage.ros.link import Link, Transport
 
 DRIVE = ("--drive", "--radius", "0.2", "--speed", "0.4", "--turn-rate", "1")
 
@@ -41,4 +41,23 @@ def test_a_damaged_state_is_refused_and_stays_as_it_is(pilotage, tmp_path):
 def test_the_transport_is_the_one_that_was_asked_for(transport, home, monkeypatch):
     monkeypatch.setattr(f"pilotage.ros.{home}", lambda *words: (transport, *words))
 
-    assert (transport, 7, "robot1") == joined(Transport(transport), 7, "robot1")
+    assert (transport, 7, "robot1") == Link(7, "robot1", Transport(transport)).join()
+
+
+@pytest.mark.parametrize(
+    ("words", "rule"),
+    [
+        (
+            ("--drive", "--radius", "0.2", "--speed", "1", "--turn-rate", "1", "--braking", "1"),
+            "it needs --ros2",
+        ),
+        (("--ros2", *DRIVE), "must be given to drive"),
+        (("--ros2", "--speed", "nan"), "it must be positive, got nan"),
+        (("--ros2", "--domain", "900"), "less than or equal to 232"),
+    ],
+)
+def test_a_table_by_guessed_limits_is_refused(pilotage, tmp_path, words, rule):
+    outcome = pilotage("table", tmp_path, "--no-browser", *words)
+
+    assert 2 == outcome.code
+    assert rule in " ".join(outcome.err.replace("│", " ").split())

@@ -1,43 +1,47 @@
 """`pilotage ros2`: localize and drive a live robot of ROS 2."""
 
 import contextlib
-from collections.abc import Iterator
-from enum import StrEnum
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.correction import write_corrections
 from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.exits import signals_held
-from pilotage.cli.options import (
-    FootprintSize,
-    Scale,
-    Seed,
-    SettingsFile,
-    StartPose,
-    check_positive,
-    parse_footprint,
-)
+from pilotage.cli.localize import corrected_files
+from pilotage.cli.options import FootprintSize, Force, Scale, Seed, SettingsFile, StartPose, check_positive
 from pilotage.cli.places import parse_goals, parse_pose
-from pilotage.cli.terminal import busy, say
+from pilotage.cli.robot import (
+    Braking,
+    Carrier,
+    CommandTopic,
+    Domain,
+    Namespace,
+    OdometryTopic,
+    Radius,
+    ScanTopic,
+    Speed,
+    Stamped,
+    TurnRate,
+    check_limits,
+    chosen_settings,
+    limits_of,
+)
+from pilotage.cli.terminal import busy, check_outputs, say
+from pilotage.errors import PilotageError
+from pilotage.ros.link import Link, Topics, Transport
 
 if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.io.state import SavedState
     from pilotage.maps import SchematicMap
-    from pilotage.ros.robot import LiveRobot, Wire
+    from pilotage.ros.robot import LiveRobot
     from pilotage.ros.session import Session
 
 REPORT_EVERY = 5.0
 """[s] between two lines on how it goes."""
-
-
-class Transport(StrEnum):
-    """What carries topics of ROS 2."""
-
-    DDS = "dds"
-    ZENOH = "zenoh"
 
 
 def ros2(
@@ -57,20 +61,11 @@ def ros2(
     localize_only: Annotated[
         bool, typer.Option("--localize-only", help="Stand in for AMCL: hear no goals, send no commands.")
     ] = False,
-    radius: Annotated[
-        float | None, typer.Option(metavar="M", help="Radius of the robot [m]; needed to drive.")
-    ] = None,
+    radius: Radius = None,
     footprint: FootprintSize = None,
-    speed: Annotated[
-        float | None, typer.Option(metavar="M/S", help="Fastest speed [m/s]; needed to drive.")
-    ] = None,
-    turn_rate: Annotated[
-        float | None, typer.Option(metavar="RAD/S", help="Fastest turn [rad/s]; needed to drive.")
-    ] = None,
-    braking: Annotated[
-        float | None,
-        typer.Option(metavar="M/S2", help="Deceleration to rely on [m/s2]; needed to drive."),
-    ] = None,
+    speed: Speed = None,
+    turn_rate: TurnRate = None,
+    braking: Braking = None,
     start: StartPose = None,
     scale: Scale = None,
     resume: Annotated[
@@ -80,25 +75,28 @@ def ros2(
             help="Go on from what was believed at the last stop, if the file is there; save it at the end.",
         ),
     ] = None,
-    domain: Annotated[
-        int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")
-    ] = 0,
-    transport: Annotated[
-        Transport, typer.Option(help="What carries the topics: DDS, or Zenoh as of rmw_zenoh.")
-    ] = Transport.DDS,
-    namespace: Annotated[str, typer.Option(help="Namespace of the robot's topics.")] = "",
-    scan_topic: Annotated[str, typer.Option("--scan-topic", help="Topic of the scans.")] = "scan",
-    odometry_topic: Annotated[str, typer.Option("--odom-topic", help="Topic of the odometry.")] = "odom",
-    command_topic: Annotated[str, typer.Option("--cmd-topic", help="Topic of the commands.")] = "cmd_vel",
-    stamped: Annotated[
-        bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
+    corrected_map: Annotated[
+        bool,
+        typer.Option("--corrected-map", help="Say as *map* the drawing bent to the walls seen, in metres."),
     ] = False,
+    corrected: Annotated[
+        Path | None,
+        typer.Option(help="Where to write that drawing at the end (.svg, or .yaml: a map for nav2)."),
+    ] = None,
+    domain: Domain = 0,
+    transport: Carrier = Transport.DDS,
+    namespace: Namespace = "",
+    scan_topic: ScanTopic = "scan",
+    odometry_topic: OdometryTopic = "odom",
+    command_topic: CommandTopic = "cmd_vel",
+    stamped: Stamped = False,
     layer: Layers = None,
     label: Labels = None,
     page: Page = None,
     shading: Shade = "recognized",
     settings: SettingsFile = None,
     seed: Seed = 0,
+    force: Force = False,
 ) -> None:
     """Localize a live robot of ROS 2 on a drawing, and drive it if that is wanted.
 
@@ -110,35 +108,36 @@ def ros2(
     **Examples:**
 
     - Stand in for AMCL: `pilotage ros2 office.svg --localize-only`
+    - A map that nav2 can plan on: `pilotage ros2 office.svg --localize-only --corrected-map`
     - One robot of several: `pilotage ros2 office.svg --domain 7 --namespace robot1 --scan-topic front/scan`
     - Say where it would drive: `pilotage ros2 office.svg --goal kitchen`
     - Patrol: `pilotage ros2 office.svg --goal kitchen,hall,store --patrol`
     - Go on where it stopped: `pilotage ros2 office.svg --resume office.state`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     """
-    size = parse_footprint(footprint)
-    if size is not None and radius is not None:
-        raise typer.BadParameter("it excludes --radius", param_hint="--footprint")
-    radius = radius if size is None else size[1] / 2.0
-    limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
-    check(limits, drive=drive, localize_only=localize_only, goal=goal)
+    limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
+    check_limits(limits, drive=drive)
+    if localize_only and (drive or goal is not None):
+        raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
     check_tour(goal, patrol=patrol, returns=returns)
     check_positive(scale, "--scale")
+    check_outputs(() if corrected is None else corrected_files(corrected), force=force)
     from pilotage.navigation import Tour
 
     if resume is not None and start is not None:
         raise typer.BadParameter("it excludes --start", param_hint="--resume")
-    from pilotage.ros.robot import LiveRobot, Topics
+    from pilotage.ros.robot import LiveRobot
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")
     session = open_session(
         sketch,
-        chosen_settings(settings, limits, 0.0 if size is None else size[0]),
+        chosen_settings(settings, limits, length),
         seed,
         known,
         scale,
         resume=resume,
+        keeps_sightings=corrected_map or corrected is not None,
     )
     topics = Topics(
         scan_topic,
@@ -154,32 +153,16 @@ def ros2(
         if refusal:
             raise typer.BadParameter(refusal, param_hint="--goal")
     robot = LiveRobot(
-        joined(transport, domain, namespace), session, topics, lambda text: say(f"pilotage: {text}")
+        Link(domain, namespace, transport).join(), session, topics, lambda text: say(f"pilotage: {text}")
     )
     say(f"pilotage: listening on domain {domain}; " + ("driving" if drive else "no commands are sent"))
-    with saving_at_the_end(session, resume), standing_at_the_end(robot):
-        spin(robot, ends=goal is not None)
-
-
-def joined(transport: Transport, domain: int, namespace: str) -> "Wire":
-    """Join a domain."""
-    if transport is Transport.ZENOH:
-        from pilotage.ros.zenoh_node import ZenohNode
-
-        return ZenohNode(domain, namespace)
-    from pilotage.ros.node import Node
-
-    return Node(domain, namespace)
-
-
-def check(limits: dict[str, float | None], *, drive: bool, localize_only: bool, goal: str | None) -> None:
-    """Reject options that contradict each other, and a drive by guessed limits."""
-    for option, value in limits.items():
-        check_positive(value, option)
-        if drive and value is None:
-            raise typer.BadParameter("it must be given to drive", param_hint=option)
-    if localize_only and (drive or goal is not None):
-        raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
+    with (
+        writing_at_the_end(session, corrected),
+        saving_at_the_end(session, resume),
+        correcting(session, wanted=corrected_map) as look,
+        standing_at_the_end(robot),
+    ):
+        spin(robot, look, ends=goal is not None)
 
 
 def check_tour(goal: str | None, *, patrol: bool, returns: bool) -> None:
@@ -190,21 +173,6 @@ def check_tour(goal: str | None, *, patrol: bool, returns: bool) -> None:
         raise typer.BadParameter("a patrol never ends", param_hint="--return")
 
 
-def chosen_settings(path: Path | None, limits: dict[str, float | None], length: float = 0.0) -> "Settings":
-    """Read settings; size and limits of the command line override theirs."""
-    from dataclasses import replace
-
-    from pilotage.config import Settings, read_settings
-
-    settings = Settings() if path is None else read_settings(path)
-    names = {"--speed": "speed", "--turn-rate": "turn_rate", "--braking": "braking"}
-    steering = {names[option]: value for option, value in limits.items() if option in names and value}
-    navigator = replace(settings.navigator, steering=replace(settings.navigator.steering, **steering))
-    if limits["--radius"]:
-        navigator = replace(navigator, radius=limits["--radius"], length=length)
-    return replace(settings, navigator=navigator)
-
-
 def open_session(
     sketch: "SchematicMap",
     settings: "Settings",
@@ -213,6 +181,7 @@ def open_session(
     scale: float | None,
     *,
     resume: Path | None = None,
+    keeps_sightings: bool = False,
 ) -> "Session":
     """Prepare the drawing, and compile what a step needs before the robot waits for it."""
     from pilotage.errors import FileError
@@ -233,6 +202,7 @@ def open_session(
                 start=start,
                 scale=scale,
                 resumed=resumed,
+                keeps_sightings=keeps_sightings,
             )
         except OtherDrawingError as error:
             raise FileError(str(error), resume or sketch.source) from error
@@ -264,6 +234,35 @@ def saving_at_the_end(session: "Session", path: Path | None) -> Iterator[None]:
 
 
 @contextlib.contextmanager
+def writing_at_the_end(session: "Session", path: Path | None) -> Iterator[None]:
+    """Write the corrected drawing however the block ends, if a file is given."""
+    try:
+        yield
+    finally:
+        if path is not None:
+            with signals_held():
+                try:
+                    write_corrections(session.atlas, session.sightings, [path])
+                except PilotageError as error:
+                    say(f"pilotage: {error}")
+
+
+@contextlib.contextmanager
+def correcting(session: "Session", *, wanted: bool) -> Iterator[Callable[[], None]]:
+    """Correct the map while the block goes on, if that is wanted; what is given is to be called often."""
+    if not wanted:
+        yield lambda: None
+        return
+    from pilotage.ros.correcting import Correcting
+
+    beside = Correcting(session, lambda text: say(f"pilotage: {text}"))
+    try:
+        yield beside.look
+    finally:
+        beside.close()
+
+
+@contextlib.contextmanager
 def standing_at_the_end(robot: "LiveRobot") -> Iterator[None]:
     """Stop the robot however the block ends."""
     try:
@@ -272,13 +271,14 @@ def standing_at_the_end(robot: "LiveRobot") -> Iterator[None]:
         robot.stop()
 
 
-def spin(robot: "LiveRobot", *, ends: bool) -> None:
+def spin(robot: "LiveRobot", look: Callable[[], None], *, ends: bool) -> None:
     """Go on until the drive is over, if there was a goal from the beginning, else until Ctrl-C."""
     import time
 
     said = time.monotonic()
     while not (ends and robot.is_over):
         robot.spin_once()
+        look()
         if robot.told is not None and time.monotonic() - said >= REPORT_EVERY:
             said = time.monotonic()
             values = robot.told.belief.values

@@ -2,15 +2,39 @@
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pilotage.cli.options import FootprintSize, SettingsFile
+from pilotage.cli.robot import (
+    Braking,
+    Carrier,
+    CommandTopic,
+    Domain,
+    Limits,
+    Namespace,
+    OdometryTopic,
+    Radius,
+    ScanTopic,
+    Speed,
+    Stamped,
+    TurnRate,
+    check_limits,
+    chosen_settings,
+    limits_of,
+)
 from pilotage.cli.terminal import say
 from pilotage.errors import PilotageError
+from pilotage.ros.link import Link, Topics, Transport
+
+if TYPE_CHECKING:
+    from pilotage.web.order import RobotOrder
 
 NEEDED = ("starlette", "uvicorn", "websockets")
 """What the extra `web` installs."""
+CARRIERS = {Transport.DDS: ("cyclonedds", "ros2"), Transport.ZENOH: ("zenoh", "zenoh")}
+"""What carries the topics of a robot, and the extra that installs it."""
 
 
 def table(
@@ -28,6 +52,28 @@ def table(
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Whether to open a browser.")
     ] = True,
+    ros2: Annotated[
+        bool, typer.Option("--ros2", help="Offer the robot on the network as a world; options as of `ros2`.")
+    ] = False,
+    drive: Annotated[
+        bool,
+        typer.Option(
+            "--drive", help="Let a person at the page send commands to that robot; else none is sent."
+        ),
+    ] = False,
+    radius: Radius = None,
+    footprint: FootprintSize = None,
+    speed: Speed = None,
+    turn_rate: TurnRate = None,
+    braking: Braking = None,
+    domain: Domain = 0,
+    transport: Carrier = Transport.DDS,
+    namespace: Namespace = "",
+    scan_topic: ScanTopic = "scan",
+    odometry_topic: OdometryTopic = "odom",
+    command_topic: CommandTopic = "cmd_vel",
+    stamped: Stamped = False,
+    settings: SettingsFile = None,
 ) -> None:
     """Open a page on which to draw a building, mark a goal, and watch a robot drive there.
 
@@ -38,6 +84,9 @@ def table(
 
     - `pilotage table drawings`
     - Print the address alone: `pilotage table drawings --port 9000 --no-browser`
+    - Watch a real robot: `pilotage table drawings --ros2 --domain 7`
+    - Drive it by a button of the page:
+      `pilotage table --ros2 --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
     - For others in the network: `pilotage table drawings --host 0.0.0.0 --token "$(openssl rand -hex 16)"`
     """
     missing = [name for name in NEEDED if find_spec(name) is None]
@@ -45,6 +94,29 @@ def table(
         raise PilotageError(
             f"the drawing table needs {', '.join(missing)}: `pip install 'pilotage[web]'` installs it"
         )
+    limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
+    check_limits(limits, drive=drive)
+    if drive and not ros2:
+        raise typer.BadParameter("it needs --ros2", param_hint="--drive")
     from pilotage.web.serve import Address, serve
 
-    serve(folder, Address(host, port, token), browse=browser, say=say)
+    robot = None
+    if ros2:
+        topics = Topics(scan_topic, odometry_topic, command_topic, stamped=stamped, drives=drive)
+        link = Link(domain, namespace, transport)
+        robot = robot_order(link, topics, settings, limits, length)
+    serve(folder, Address(host, port, token), browse=browser, say=say, robot=robot)
+
+
+def robot_order(
+    link: Link, topics: Topics, settings: Path | None, limits: Limits, length: float
+) -> "RobotOrder":
+    """Describe the robot to the workers of the table; PilotageError if its messages cannot be carried."""
+    from pilotage.web.order import RobotOrder
+
+    module, extra = CARRIERS[link.transport]
+    if find_spec(module) is None:
+        raise PilotageError(f"a live robot needs the extra {extra}: pip install 'pilotage[{extra}]'")
+    how = "a person at the page may let it drive" if topics.drives else "no commands are sent"
+    say(f"The robot on domain {link.domain} is offered as a world; {how}")
+    return RobotOrder(link, topics, chosen_settings(settings, limits, length))

@@ -1,10 +1,11 @@
 """The elastic drawing: a drawing is bent to where the robot saw its walls, in metres."""
 
-from pilotage.correction.correct import NothingBelievedError, correct_drawing
+from pilotage.correction.correct import BELIEVED, NothingBelievedError, correct_drawing
 from pilotage.correction.corrected import CorrectedDrawing, Passage, PassageState
 from pilotage.correction.sighting import Sighting, append_sighting
 
 __all__ = [
+    "BELIEVED",
     "CorrectedDrawing",
     "NothingBelievedError",
     "Passage",

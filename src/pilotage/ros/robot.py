@@ -8,17 +8,19 @@ import math
 import re
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
 from pilotage.geometry import Pose2, Twist
 from pilotage.io.bags import outgoing
+from pilotage.io.bags.bent_frame import BentFrame
 from pilotage.io.bags.frames import frame_name, heading, seconds
+from pilotage.io.bags.ground import Ground
 from pilotage.io.bags.messages import ODOMETRY_TYPE, SCAN_TYPE
 from pilotage.io.bags.recorder import TYPES
 from pilotage.navigation.steering import STILL
+from pilotage.ros.link import Topics
 from pilotage.ros.node import LATCHED_DEPTH, Quality
 from pilotage.ros.sensing import NotReadyError, Sensing
 from pilotage.ros.session import Goal, Session, Told
@@ -47,18 +49,6 @@ class Wire(Protocol):
         """Wait until a message comes."""
 
 
-@dataclass(frozen=True, slots=True)
-class Topics:
-    """Names of topics, and what may be sent."""
-
-    scan: str = "scan"
-    odometry: str = "odom"
-    command: str = "cmd_vel"
-    stamped: bool = False  # commands are TwistStamped, as robots of ROS 2 Jazzy and later want
-    drives: bool = False  # False: no command is ever sent
-    localizes_only: bool = False  # no goals are heard
-
-
 class LiveRobot:
     """Hears a robot, and tells it where it is and what to do."""
 
@@ -74,6 +64,8 @@ class LiveRobot:
         self.sensing, self.watchdog = Sensing(), Watchdog()
         self.told: Told | None = None
         self.is_over = False  # a drive has ended
+        self.is_allowed = True  # to send commands; a person may take that back
+        self.trouble = ""  # why the robot must stand now
         latched = Quality(LATCHED_DEPTH, reliable=True, latched=True)
         self._scans = wire.subscribe(topics.scan, SCAN_TYPE, Quality(1))
         self._odometry = wire.subscribe(topics.odometry, ODOMETRY_TYPE, Quality(100))
@@ -115,7 +107,8 @@ class LiveRobot:
             self.sensing.hear_transforms(message)
         for message in self._odometry.take():
             self.sensing.hear_odometry(message)
-        self._hear_wishes()
+        if self._topics.hears_wishes:
+            self._hear_wishes()
         scans = self._scans.take()
         if scans:
             self._hear_scan(scans[-1])
@@ -126,6 +119,11 @@ class LiveRobot:
         for _ in range(3):
             self._send_command(STILL, self.watchdog.stamp or 0.0)
             time.sleep(0.01)
+
+    def forbid(self) -> None:
+        """Tell the wheels to stand, and send nothing from then on."""
+        self.stop()
+        self.is_allowed = False
 
     def _hear_scan(self, message: Any) -> None:  # noqa: ANN401  # made at run time
         """Localize, and drive on if nothing forbids it."""
@@ -151,7 +149,7 @@ class LiveRobot:
 
     def _watch(self) -> None:
         """Stand while something is wrong, and say so once."""
-        reason = self.watchdog.reason(self._clock())
+        self.trouble = reason = self.watchdog.reason(self._clock())
         if reason:
             self._stand(reason, self.watchdog.stamp or 0.0)
         elif self._reason:
@@ -171,7 +169,7 @@ class LiveRobot:
 
     def _send_command(self, command: Twist, stamp: float) -> None:
         """Send a command, if we may drive."""
-        if "command" not in self._out:
+        if "command" not in self._out or not self.is_allowed:
             return
         message = outgoing.twist_message(command)
         if self._topics.stamped:
@@ -185,7 +183,8 @@ class LiveRobot:
         if self._frame_told is not self.session.frame:
             self._frame_told = self.session.frame
             frame, graph = self.session.frame, self.session.atlas.cell_graph
-            out["map"].publish(outgoing.occupancy_grid(stamp, frame, graph))
+            ground = frame.ground if isinstance(frame, BentFrame) else Ground.drawn(frame, graph)
+            out["map"].publish(outgoing.occupancy_grid(stamp, ground))
             out["drawing"].publish(outgoing.drawing(stamp, frame))
             out["cells"].publish(outgoing.cells(stamp, frame, graph))
         out["tf"].publish(
@@ -204,28 +203,26 @@ class LiveRobot:
     def _hear_wishes(self) -> None:
         """Take starts and goals in."""
         for message in self._starts.take():
-            self._tell(self.session.set_start(planar(message.pose.pose)), "the start is taken")
+            self._say(self.session.set_start(planar(message.pose.pose)) or "the start is taken")
         for message in self._goal_poses.take():
             self.set_goal(self.session.goal_at(planar(message.pose)), frame_name(message.header.frame_id))
         for message in self._goal_names.take():
             self.set_goal(message.data.strip() or None)
 
-    def set_goal(self, goal: Goal | None, frame: str = outgoing.MAP) -> None:
-        """Drive there; an empty name ends the drive."""
+    def set_goal(self, goal: Goal | None, frame: str = outgoing.MAP) -> str:
+        """Drive there, or end the drive if there is no goal; say and return why not if it cannot be."""
+        refusal = ""
         if self._topics.localizes_only:
-            self._say("goals are not heard: the robot is only localized")
-            return
-        if frame not in {outgoing.MAP, ""}:
-            self._say(f"a goal must be in the frame map, got {frame}")
-            return
-        self.is_over = False
-        if goal is None:
-            self.stop()
-        self._tell(self.session.set_goal(goal), f"the goal is {goal}" if goal else "there is no goal now")
-
-    def _tell(self, refusal: str, success: str) -> None:
-        """Say how a wish was taken."""
-        self._say(refusal or success)
+            refusal = "goals are not heard: the robot is only localized"
+        elif frame not in {outgoing.MAP, ""}:
+            refusal = f"a goal must be in the frame map, got {frame}"
+        else:
+            self.is_over = False
+            if goal is None:
+                self.stop()
+            refusal = self.session.set_goal(goal)
+        self._say(refusal or (f"the goal is {goal}" if goal else "there is no goal now"))
+        return refusal
 
 
 def planar(pose: Any) -> Pose2:  # noqa: ANN401  # made at run time

@@ -41,6 +41,10 @@ EXAMPLES = {f"{packed.name}/{hand}": (packed, hand) for packed in ALL for hand i
 """Drawings of the packed worlds, by name."""
 
 
+ROBOT = "robot"
+"""Id of the robot on the network among the worlds."""
+
+
 def describe_server(request: Request) -> Response:
     """Say what this server is."""
     limits = {"drawing": LARGEST_DRAWING, "upload": LARGEST_UPLOAD}
@@ -126,7 +130,8 @@ def list_worlds(request: Request) -> Response:
         {"id": f"file:{name}", "title": name, "drawings": []}
         for name in table_of(request).folder.names(WORLDS)
     ]
-    return JSONResponse({"worlds": packed + files})
+    robot = {"id": ROBOT, "title": "the robot on the network", "drawings": []}
+    return JSONResponse({"worlds": ([robot] if table_of(request).robot else []) + packed + files})
 
 
 def list_recordings(request: Request) -> Response:

@@ -14,9 +14,9 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pilotage.web import order as orders
-from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, example_drawing
+from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, ROBOT, example_drawing
 from pilotage.web.folder import WORLDS
-from pilotage.web.order import MadeRealOrder, Order, OrderError, RecordingOrder, Sent
+from pilotage.web.order import MadeRealOrder, Order, OrderError, RecordingOrder, RobotOrder, Sent
 from pilotage.web.sessions import Client, Session
 from pilotage.web.table import Table, table_of
 from pilotage.web.workers import WorkerError
@@ -24,7 +24,10 @@ from pilotage.worlds import ALL
 
 Message = dict[str, Any]
 
-PASSED_ON = ("pause", "step", "speed", "goal", "kidnap", "door", "box", "person", "stop")
+PASSED_ON = (
+    *("pause", "step", "speed", "goal", "kidnap", "door", "box", "person", "stop"),
+    *("drive", "place", "alive"),
+)
 """Messages that are for the worker of the drive."""
 LARGEST_MESSAGE = 2 * LARGEST_DRAWING
 """Letters of a message: a drawing that is not saved comes in one."""
@@ -105,7 +108,11 @@ async def obey(message: Message, session: Session, client: Client) -> None:
     """Do what a page asks."""
     kind = message.get("type")
     if kind in PASSED_ON:
-        await asyncio.to_thread(session.tell, message)
+        refusal = session.refusal(kind, client)
+        if refusal:
+            client.put("error", error_text(OrderError(refusal)))
+        else:
+            await asyncio.to_thread(session.tell, message)
     elif kind == "seen":
         client.saw()
     elif kind == "scrub":
@@ -169,7 +176,9 @@ def read_drawing(message: Message, table: Table) -> tuple[Sent, str, str | None]
         raise OrderError(f"there is no drawing {name!r}") from error
 
 
-def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | RecordingOrder, Any]:
+def read_world(
+    message: Message, table: Table
+) -> tuple[Path | MadeRealOrder | RecordingOrder | RobotOrder, Any]:
     """Find the world of a drive, and which packed one it is, if it is one; or a recording instead."""
     if message.get("recording") is not None:
         path, title = table.recordings.find(orders.text(message, "recording"))
@@ -179,6 +188,10 @@ def read_world(message: Message, table: Table) -> tuple[Path | MadeRealOrder | R
     if isinstance(made_real, dict):
         severity = orders.number(made_real, "severity", 0.0, 1.0, otherwise=0.5)
         return MadeRealOrder(severity, orders.whole(made_real, "seed")), None
+    if message.get("world") == ROBOT:
+        if table.robot is None:
+            raise OrderError("there is no robot on the network: the table was not started with --ros2")
+        return table.robot, None
     return find_world(orders.text(message, "world"), table)
 
 

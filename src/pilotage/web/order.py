@@ -4,8 +4,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pilotage.errors import shown
+from pilotage.ros.link import Link, Topics
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
 
 SPEEDS = (0.1, 100.0)
 """How many times as fast as real time a drive may go; it does not go faster than it can."""
@@ -49,12 +54,21 @@ class RecordingOrder:
 
 
 @dataclass(frozen=True, slots=True)
+class RobotOrder:
+    """The robot on the network, as the command line describes it."""
+
+    link: Link
+    topics: Topics
+    settings: "Settings"
+
+
+@dataclass(frozen=True, slots=True)
 class Order:
     """A drive to begin."""
 
     title: str
     drawing: Sent
-    world: Path | MadeRealOrder | RecordingOrder
+    world: Path | MadeRealOrder | RecordingOrder | RobotOrder
     warp: Path | None = None  # control points of a packed drawing in a packed world: the truth, to be shown
     goal: Place | None = None  # as the drawing marks it if None
     start: tuple[float, ...] | None = None  # x, y and perhaps heading on the page, which the robot is told

@@ -11,6 +11,7 @@ from pathlib import Path
 from pilotage.errors import FileError, PilotageError
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
+from pilotage.web.order import RobotOrder
 
 LOCAL = "127.0.0.1"
 """The address that only this machine can reach."""
@@ -37,7 +38,14 @@ class Address:
     token: str = ""  # a random one if it is empty
 
 
-def serve(folder: Path, wanted: Address, *, browse: bool, say: Callable[[str], None]) -> None:
+def serve(
+    folder: Path,
+    wanted: Address,
+    *,
+    browse: bool,
+    say: Callable[[str], None],
+    robot: RobotOrder | None = None,
+) -> None:
     """Serve a folder until the process is interrupted; `say` is told the address to open.
 
     Raises FileError if there is no such folder, ServerError if the address will not do.
@@ -59,7 +67,7 @@ def serve(folder: Path, wanted: Address, *, browse: bool, say: Callable[[str], N
     port = listening.getsockname()[1]
     token = wanted.token or secrets.token_urlsafe(24)
     hosts = frozenset(f"{name}:{port}" for name in (wanted.host, LOCAL, "localhost"))
-    app = build_app(Table(Folder(folder)), Access(token, hosts, any_host=wanted.host != LOCAL))
+    app = build_app(Table(Folder(folder), robot), Access(token, hosts, any_host=wanted.host != LOCAL))
     server = uvicorn.Server(
         uvicorn.Config(
             app,

@@ -13,11 +13,11 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from pilotage.web.history import History
-from pilotage.web.order import Order
+from pilotage.web.order import Order, RobotOrder
 from pilotage.web.work import drive
 from pilotage.web.workers import WorkerError, start
 
-TOLD_FIRST = ("session", "world", "marks", "state", "corrected", "frame", "done", "error")
+TOLD_FIRST = ("session", "command", "world", "marks", "state", "corrected", "frame", "done", "error")
 """Order in which a client gets what waits for it."""
 MOST_UNSEEN = 3
 """Frames that a client gets before it has seen the first of them."""
@@ -104,6 +104,10 @@ class Session:
         """Pass a message on to the worker; one that is gone does not mind."""
         with contextlib.suppress(OSError, ValueError):
             self._connection.send(message)
+
+    def refusal(self, _kind: str, _client: Client) -> str:
+        """Say why a client may not do what it asks; empty if it may."""
+        return ""
 
     def resume(self) -> None:
         """Let the next client know that it comes back to something."""
@@ -213,6 +217,7 @@ class Sessions:
 
     def __init__(self) -> None:
         self._sessions: dict[str, Session] = {}
+        self._beginning = asyncio.Lock()
         self._folder = tempfile.TemporaryDirectory(prefix="pilotage-table-")
 
     @property
@@ -221,12 +226,27 @@ class Sessions:
         return Path(self._folder.name)
 
     async def begin(self, order: Order) -> Session:
-        """Begin a drive; WorkerError if too many go on."""
+        """Begin a drive; WorkerError if too many go on. A robot that is watched already is gone back to."""
+        if not isinstance(order.world, RobotOrder):
+            return await self._begin(order, Session)
+        from pilotage.web.robot_sessions import RobotSession
+
+        async with self._beginning:
+            for one in self.all():
+                if isinstance(one, RobotSession) and one.clients and not one.over:
+                    one.resume()
+                    return one
+                if isinstance(one, RobotSession):
+                    await asyncio.to_thread(self.forget, one.number)
+            return await self._begin(order, RobotSession)
+
+    async def _begin(self, order: Order, kind: type[Session]) -> Session:
+        """Start a worker."""
         if sum(not one.over for one in self._sessions.values()) >= MOST_GOING:
             raise WorkerError(f"{MOST_GOING} drives go on already, stop one first")
         self._forget_oldest()
         process, connection = await asyncio.to_thread(start, drive, order)
-        session = Session(order.title, process, connection)
+        session = kind(order.title, process, connection)
         self._sessions[session.number] = session
         return session
 

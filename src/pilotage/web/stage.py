@@ -22,7 +22,7 @@ from pilotage.simulation.made_real import make_real
 from pilotage.simulation.proportions import Proportions
 from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, read_sent
 from pilotage.web.frames import FrameMaker, Truth, describe_world
-from pilotage.web.order import MadeRealOrder, Order, Place, RecordingOrder
+from pilotage.web.order import MadeRealOrder, Order, Place, RecordingOrder, RobotOrder
 from pilotage.web.playback import playback
 from pilotage.web.replay import replay
 from pilotage.web.show import Show
@@ -36,6 +36,10 @@ MOST_INSTANTS = 40_000
 
 class NoGoalError(PilotageError):
     """A drive has no goal."""
+
+
+class NoWorldError(PilotageError):
+    """A drive has no world."""
 
 
 @dataclass(slots=True)
@@ -132,6 +136,8 @@ class Stage:
 
 def set_stage(order: Order) -> Show:
     """Read drawing and world, and put the robot down; PilotageError or ValueError if that cannot be done."""
+    if isinstance(order.world, RobotOrder):
+        raise NoWorldError("a robot on the network has no world")
     settings = Settings()
     atlas = build_atlas(read_sent(order.drawing).sketch, settings.localizer.atlas)
     page = Page(atlas.sketch)

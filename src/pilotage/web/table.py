@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from starlette.requests import HTTPConnection
 
 from pilotage.web.folder import Folder
+from pilotage.web.order import RobotOrder
 from pilotage.web.recordings import Recordings
 from pilotage.web.sessions import Sessions
 from pilotage.web.workers import Jobs
@@ -15,6 +16,7 @@ class Table:
     """The folder, the workers, the drives, and what pages sent."""
 
     folder: Folder
+    robot: RobotOrder | None = None  # on the network, if there is one
     jobs: Jobs = field(default_factory=Jobs)
     sessions: Sessions = field(default_factory=Sessions)
     recordings: Recordings = field(init=False)

@@ -2,11 +2,16 @@
 
 from multiprocessing.connection import Connection
 
-from pilotage.web.order import Order, Place, Sent
+from pilotage.web.order import Order, Place, RobotOrder, Sent
 
 
 def drive(connection: Connection, order: Order) -> None:
     """Drive, until the server ends it."""
+    if isinstance(order.world, RobotOrder):
+        from pilotage.web.robot_driver import drive_robot
+
+        drive_robot(connection, order, order.world)
+        return
     from pilotage.web.driver import drive_in_worker
 
     drive_in_worker(connection, order)

@@ -64,7 +64,7 @@ def start(work: Callable[..., None], *arguments: object) -> tuple[BaseProcess, C
 
 def run(connection: Connection, work: Callable[..., None], *arguments: object) -> None:
     """Do the work in the worker; the end of the connection ends it too."""
-    with contextlib.suppress(BrokenPipeError, EOFError, KeyboardInterrupt):
+    with contextlib.suppress(ConnectionError, EOFError, KeyboardInterrupt):
         work(connection, *arguments)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2, Twist
 from pilotage.io.bags.belief import Belief, MapFrame
+from pilotage.io.bags.ground import Ground
 from pilotage.maps import CellGraph
 from pilotage.perception import LaserScan
 from pilotage.perception.scan import MAX_TRUSTED_RANGE
@@ -192,38 +193,37 @@ def marker(
     )
 
 
-def occupancy_grid(stamp: float, frame: MapFrame, graph: CellGraph | None) -> Any:  # noqa: ANN401  # as above
-    """Make an OccupancyGrid: cells are free, strokes are occupied, and all else is unknown."""
-    left, bottom, right, top = (value / frame.scale for value in frame.sketch.bounds)
+def occupancy_grid(stamp: float, ground: Ground) -> Any:  # noqa: ANN401  # as above
+    """Make an OccupancyGrid: the floor is free, walls are occupied, and all else is unknown."""
+    left, bottom, right, top = ground.bounds
     left, bottom, right, top = left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN
     resolution = max(RESOLUTION, max(right - left, top - bottom) / MOST_CELLS)
-    grid = rasterized(frame, graph, (left, bottom, right, top), resolution)
+    grid = rasterized(ground, (left, bottom, right, top), resolution)
     origin = pose_message(Pose2(left, bottom, 0.0))
     height, width = grid.shape
     about = make("nav_msgs/MapMetaData", time(stamp), resolution, width, height, origin)
     return make("nav_msgs/OccupancyGrid", header(stamp, MAP), about, grid.ravel())
 
 
-def rasterized(
-    frame: MapFrame, graph: CellGraph | None, bounds: tuple[float, float, float, float], resolution: float
-) -> Any:  # noqa: ANN401  # an array of int8
-    """Draw cells and strokes into a grid, (height, width), the lowest row first."""
+def rasterized(ground: Ground, bounds: tuple[float, float, float, float], resolution: float) -> Any:  # noqa: ANN401  # an array of int8
+    """Draw floor and walls into a grid, (height, width), the lowest row first."""
     from PIL import Image, ImageDraw
 
     left, bottom, right, top = bounds
     size = math.ceil((right - left) / resolution), math.ceil((top - bottom) / resolution)
     picture = Image.new("L", size, 2)
     pen = ImageDraw.Draw(picture)
+    width = max(1, round(ground.thickness / resolution))
 
     def pixels(points: Array) -> list[tuple[float, float]]:
-        return [(x, y) for x, y in ((frame.from_sketch(points) - [left, bottom]) / resolution).tolist()]
+        return [(x, y) for x, y in ((points - [left, bottom]) / resolution).tolist()]
 
-    for cell in graph.cells if graph else ():
-        pen.polygon(pixels(cell.outline), fill=0)
-        for hole in cell.holes:
+    for outline, holes in ground.floor:
+        pen.polygon(pixels(outline), fill=0)
+        for hole in holes:
             pen.polygon(pixels(hole), fill=2)
-    for first, second in zip(*[iter(pixels(frame.sketch.segments.reshape(-1, 2)))] * 2, strict=True):
-        pen.line([first, second], fill=1)
+    for first, second in zip(*[iter(pixels(ground.walls.reshape(-1, 2)))] * 2, strict=True):
+        pen.line([first, second], fill=1, width=width)
     return np.array([FREE, OCCUPIED, UNKNOWN], np.int8)[np.asarray(picture)]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from pilotage.geometry import Pose2
 from pilotage.io.bags import outgoing
 from pilotage.io.bags.belief import Belief, MapFrame
+from pilotage.io.bags.ground import Ground
 from pilotage.io.files import replacing
 from pilotage.maps import CellGraph
 from pilotage.perception import Reading
@@ -72,7 +73,7 @@ class Recorder:
         self._begun = True
         self._write("/pilotage/drawing", stamp, outgoing.drawing(stamp, self._frame))
         self._write("/pilotage/cells", stamp, outgoing.cells(stamp, self._frame, self._graph))
-        self._write("/map", stamp, outgoing.occupancy_grid(stamp, self._frame, self._graph))
+        self._write("/map", stamp, outgoing.occupancy_grid(stamp, Ground.drawn(self._frame, self._graph)))
 
     def _add_scan(self, reading: Reading) -> None:
         """Write a scan, and the mount of its laser whenever it is another."""

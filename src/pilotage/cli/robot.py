@@ -1,0 +1,73 @@
+"""Options that say which robot is on the network and what it can do: `ros2` and `table` share them."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pilotage.cli.options import check_positive, parse_footprint
+from pilotage.ros.link import Transport
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
+
+Radius = Annotated[float | None, typer.Option(metavar="M", help="Radius of the robot [m]; needed to drive.")]
+Speed = Annotated[float | None, typer.Option(metavar="M/S", help="Fastest speed [m/s]; needed to drive.")]
+TurnRate = Annotated[
+    float | None, typer.Option(metavar="RAD/S", help="Fastest turn [rad/s]; needed to drive.")
+]
+Braking = Annotated[
+    float | None, typer.Option(metavar="M/S2", help="Deceleration to rely on [m/s2]; needed to drive.")
+]
+Domain = Annotated[int, typer.Option(min=0, max=232, envvar="ROS_DOMAIN_ID", help="Domain of the robot.")]
+Carrier = Annotated[Transport, typer.Option(help="What carries the topics: DDS, or Zenoh as of rmw_zenoh.")]
+Namespace = Annotated[str, typer.Option(help="Namespace of the robot's topics.")]
+ScanTopic = Annotated[str, typer.Option("--scan-topic", help="Topic of the scans.")]
+OdometryTopic = Annotated[str, typer.Option("--odom-topic", help="Topic of the odometry.")]
+CommandTopic = Annotated[str, typer.Option("--cmd-topic", help="Topic of the commands.")]
+Stamped = Annotated[
+    bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
+]
+
+Limits = dict[str, float | None]
+"""Size and limits of a robot, by the options that give them."""
+
+
+def limits_of(
+    footprint: str | None,
+    radius: float | None,
+    speed: float | None,
+    turn_rate: float | None,
+    braking: float | None,
+) -> tuple[Limits, float]:
+    """Gather size and limits, and the length of a rectangular footprint [m], 0 for a disc."""
+    size = parse_footprint(footprint)
+    if size is not None and radius is not None:
+        raise typer.BadParameter("it excludes --radius", param_hint="--footprint")
+    length, width = (0.0, 0.0) if size is None else size
+    radius = radius if size is None else width / 2.0
+    limits = {"--radius": radius, "--speed": speed, "--turn-rate": turn_rate, "--braking": braking}
+    return limits, length
+
+
+def check_limits(limits: Limits, *, drive: bool) -> None:
+    """Reject limits that cannot be, and a drive by guessed ones."""
+    for option, value in limits.items():
+        check_positive(value, option)
+        if drive and value is None:
+            raise typer.BadParameter("it must be given to drive", param_hint=option)
+
+
+def chosen_settings(path: Path | None, limits: Limits, length: float = 0.0) -> "Settings":
+    """Read settings; size and limits of the command line override theirs."""
+    from dataclasses import replace
+
+    from pilotage.config import Settings, read_settings
+
+    settings = Settings() if path is None else read_settings(path)
+    names = {"--speed": "speed", "--turn-rate": "turn_rate", "--braking": "braking"}
+    steering = {names[option]: value for option, value in limits.items() if option in names and value}
+    navigator = replace(settings.navigator, steering=replace(settings.navigator.steering, **steering))
+    if limits["--radius"]:
+        navigator = replace(navigator, radius=limits["--radius"], length=length)
+    return replace(settings, navigator=navigator)
