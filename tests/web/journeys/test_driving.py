@@ -1,6 +1,7 @@
 """Drives that are watched in the browser, and what a person does to them."""
 
 import re
+from itertools import pairwise
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -121,8 +122,9 @@ def test_a_door_closed_in_mid_drive_leads_to_a_detour_and_a_reload_goes_on(sheet
     sheet.shot("detour")
     assert way[0][0] < near[0]
     assert way[-1][0] > near[0]
-    crossing = min(way, key=lambda place: abs(place[0] - near[0]))
-    assert abs(crossing[1] - far[1]) < abs(crossing[1] - near[1])
+    after, before = next((a, b) for a, b in pairwise(reversed(way)) if b[0] <= near[0] < a[0])
+    crossing = before[1] + (near[0] - before[0]) / (after[0] - before[0]) * (after[1] - before[1])
+    assert abs(crossing - far[1]) < abs(crossing - near[1])
     page.get_by_role("button", name="Back to the drawing").click()
     expect(sheet.summary).to_contain_text("2 cells, 2 openings", timeout=PATIENCE_MS)
 
