@@ -21,10 +21,11 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.lib.arguments import add_jobs, add_names, names_of, positive
-from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, PEOPLE, drawing_of, drawings, folder_of
+from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, PEOPLE, TUNED, drawing_of, drawings, folder_of
 from benchmarks.lib.protocols import Followed, Task, follow_all
 from benchmarks.lib.results import Figures, mean_of
 from benchmarks.lib.rungs import plan_of, rung_name, straight_name
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.evaluation.deformation import Plan, Statistics, deform, read_plan, statistics_of
 from pilotage.evaluation.episodes import score
 from pilotage.evaluation.rooms import read_world_rooms
@@ -34,6 +35,7 @@ SEVERITIES = (0.5, 1.0)
 SHOWN = (0.0, 0.25, 0.5, 0.75, 1.0, 1.25)
 SHOWN_BUILDING = "csail"
 PERSONS, EPISODES = 1, 3
+HELD_OUT = tuple(building for building in BUILDINGS if building not in TUNED)
 WITH_TRUE_WARP = "true_warp_"
 SCORES = {
     "room_end": ("room at end", 12),
@@ -166,6 +168,38 @@ def summarize(followed: Sequence[Followed]) -> Figures:
         "room_last10": float(np.mean([one.right_last for one in scores])),
         "confident_wrong": float(np.mean([one.sure_and_wrong for one in scores])),
     }
+
+
+def render(figures: Figures) -> str:
+    """Write README's table of means over buildings."""
+    rows = [
+        (
+            name,
+            percent(row["mean"]["room_end"]),
+            percent(mean_of([row[one] for one in HELD_OUT if one in row])["room_end"]),
+            percent(row["mean"]["room_last10"]),
+            percent(row["mean"]["confident_wrong"], 1),
+        )
+        for name, row in figures.items()
+    ]
+    head = (
+        "severity",
+        "right room at the end",
+        "held-out buildings",
+        "in the last 10 m",
+        "sure (> .9) and wrong",
+    )
+    return "\n".join(
+        [
+            prose(
+                "True plans of the six buildings, deformed as people deform them; severity 1 is as people"
+                " draw. The robot travels 40 m in the logs and is told nothing. There is one drawing of each:"
+                " the figures are rough."
+            ),
+            "",
+            table(head, rows),
+        ]
+    )
 
 
 def measure_drawings(buildings: Sequence[str], persons: Sequence[int]) -> Figures:

@@ -19,6 +19,7 @@ from benchmarks.lib.arguments import add_jobs, add_names, positive
 from benchmarks.lib.people import FOLDER, SKETCHED, SKETCHES, places, read_matches, regions_of, world
 from benchmarks.lib.protocols import Followed, Task, follow_all, sketch_of, travel_of
 from benchmarks.lib.results import Figures, mean_of
+from benchmarks.lib.tables import percent, prose, table
 from pilotage.drives import navigate
 from pilotage.errors import PilotageError
 from pilotage.evaluation.episodes import score
@@ -99,3 +100,36 @@ def line(number: str, row: Figures) -> str:
     """Format the figures of one sketch, or of the mean."""
     reached = f"{row['reached']:9.2f}" if "reached" in row else f"{'-':>9s}"
     return f"{number:8s}{row['region_end']:14.2f}{row['most']:7.2f}{row['confident_wrong']:12.3f}{reached}"
+
+
+def render(figures: Figures) -> str:
+    """Write README's table: the mean, and the best and worst sketch."""
+    sketches = {name: row for name, row in figures.items() if name != "mean"}
+    order = sorted(sketches, key=lambda name: sketches[name]["region_end"])
+    names = {
+        "mean": f"{len(sketches)} sketches",
+        order[-1]: f"best, {order[-1]}",
+        order[0]: f"worst, {order[0]}",
+    }
+    rows = []
+    for name, title in names.items():
+        row = figures[name]
+        shares = (row["region_end"], row["most"], row.get("reached"))
+        rows.append((title, *map(percent, shares), percent(row["confident_wrong"], 1)))
+    head = (
+        "drawings",
+        "right region at the end",
+        "largest region",
+        "drives that reached",
+        "sure (> .9) and wrong",
+    )
+    return "\n".join(
+        [
+            prose(
+                "A simulated robot travels 40 m in a building that thirteen people have sketched, and is told"
+                " nothing. Who always names the largest region is right as often as the third column says."
+            ),
+            "",
+            table(head, rows),
+        ]
+    )
