@@ -3,6 +3,7 @@
 import pytest
 
 from buildings import coarse, flat, readings_of, walk
+from pilotage.correction import correct_drawing
 from pilotage.errors import PilotageError
 from pilotage.io.state import read_state
 from pilotage.localization import LocalizerSettings
@@ -55,3 +56,17 @@ def test_a_session_of_another_drawing_is_refused(tmp_path):
     other = build_atlas(flat(scale=12.0), SETTINGS[0].atlas)
     with pytest.raises(PilotageError, match="of another drawing"):
         Session(other, SETTINGS, resumed=read_state(path))
+
+
+def test_what_corrects_the_drawing_is_kept(tmp_path):
+    path = tmp_path / "flat.state"
+    session = Session(ATLAS, SETTINGS, start=(10.0, 60.0, -1.57), keeps_sightings=True)
+    for reading in READINGS:
+        session.update(reading)
+    session.save(path)
+    resumed = Session(ATLAS, SETTINGS, resumed=read_state(path), keeps_sightings=True)
+    first, second = (correct_drawing(ATLAS, one.sightings) for one in (session, resumed))
+
+    assert 10 < len(session.sightings) == len(resumed.sightings)
+    assert first.path.tolist() == second.path.tolist()
+    assert first.scale == second.scale

@@ -7,7 +7,7 @@ values are objects with their type's name. Nothing in it is run.
 import io
 import json
 import zipfile
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from pilotage.correction import Sighting
 from pilotage.errors import FileError, PilotageError, shown
 from pilotage.geometry import Affine2, Homography, Polyline, Pose2
 from pilotage.io.files import read_bytes, replacing
@@ -48,8 +49,8 @@ TYPES: Mapping[str, type] = {
     kind.__name__: kind
     for kind in (
         Affine2, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap, LocalizerState,
-        Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis, SparseScan,
-        Status, Track, Tracks,
+        Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis, Sighting,
+        SparseScan, Status, Track, Tracks,
     )
 }  # fmt: skip
 """All types that a state may hold."""
@@ -57,19 +58,31 @@ TYPES: Mapping[str, type] = {
 
 @dataclass(frozen=True, eq=False)
 class SavedState:
-    """What a localizer believed, and the gateways that were blocked."""
+    """What a localizer believed, the gateways that were blocked, and what corrects the drawing."""
 
     localizer: LocalizerState
     blocked: tuple[str, ...] = ()
+    sightings: tuple[Sighting, ...] = ()
 
 
-def save_state(path: Path | str, localizer: Localizer, blocked: Collection[str] = ()) -> None:
-    """Save all that a localizer has learned, and the ids of blocked gateways; an old file is replaced.
+def save_state(
+    path: Path | str,
+    localizer: Localizer,
+    blocked: Collection[str] = (),
+    sightings: Sequence[Sighting] = (),
+) -> None:
+    """Save all that a localizer has learned; an old file is replaced.
 
-    The file is written whole or not at all. Raises FileError if it cannot be written.
+    The ids of blocked gateways go with it, and the sightings by which the drawing is corrected. The file is
+    written whole or not at all. Raises FileError if it cannot be written.
     """
     arrays: list[np.ndarray] = []
-    tree = {"version": VERSION, "state": encode(localizer.state, arrays), "blocked": list(blocked)}
+    tree = {
+        "version": VERSION,
+        "state": encode(localizer.state, arrays),
+        "blocked": list(blocked),
+        "sightings": encode(tuple(sightings), arrays),
+    }
     with replacing(path) as beside, zipfile.ZipFile(beside, "w") as file:
         file.writestr(TREE, json.dumps(tree))
         for number, array in enumerate(arrays):
@@ -105,13 +118,16 @@ def read_state(path: Path | str) -> SavedState:
         version = tree["version"]
         state = decode(tree["state"], arrays) if version == VERSION else None
         blocked = tuple(str(name) for name in tree["blocked"])
+        sightings = decode(tree.get("sightings", []), arrays) if version == VERSION else ()
     except Exception as error:  # whatever is wrong with its bytes
         raise FileError(DAMAGED, path) from error
     if version != VERSION:
         raise FileError(f"a saved state must be of version {VERSION}, got {shown(version)}", path)
-    if not isinstance(state, LocalizerState):
+    if not (isinstance(state, LocalizerState) and isinstance(sightings, tuple)):
         raise FileError(DAMAGED, path)
-    return SavedState(state, blocked)
+    if not all(isinstance(one, Sighting) for one in sightings):
+        raise FileError(DAMAGED, path)
+    return SavedState(state, blocked, sightings)
 
 
 def unpack(content: bytes) -> tuple[dict[str, Any], dict[str, np.ndarray]]:

@@ -61,6 +61,8 @@ class Session:
         self._anchor: tuple[Pose2, Pose2] | None = None  # odom_from_base of scan matching, and map_from_base
         self._keeps_sightings = keeps_sightings
         self.sightings: list[Sighting] = []  # by which the drawing can be corrected, if they are kept
+        if resumed is not None:
+            self.sightings += resumed.sightings
         self.sightings_began = 0  # how often they were begun anew, or made fewer
         self._settings, self._seed, self._scale = settings, seed, scale
         self._blocked: tuple[str, ...] = () if resumed is None else resumed.blocked
@@ -85,8 +87,8 @@ class Session:
         return self._last_stamp > -math.inf
 
     def save(self, path: Path) -> None:
-        """Save what is believed, and the gateways that are blocked; raises FileError if that fails."""
-        save_state(path, self._localizer, self.blocked)
+        """Save what is believed, blocked gateways and sightings; raises FileError if that fails."""
+        save_state(path, self._localizer, self.blocked, self.sightings)
 
     @property
     def blocked(self) -> tuple[str, ...]:
