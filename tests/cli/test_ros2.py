@@ -61,3 +61,26 @@ def test_a_table_by_guessed_limits_is_refused(pilotage, tmp_path, words, rule):
 
     assert 2 == outcome.code
     assert rule in " ".join(outcome.err.replace("│", " ").split())
+
+
+ROBOT = 'radius = 0.2\nspeed = 0.4\nturn-rate = 1\nbraking = -0.5\ndomain = 7\nscan-topic = "front/scan"\n'
+
+
+@pytest.mark.parametrize(
+    ("content", "words", "refusal"),
+    [
+        (ROBOT, ("--drive",), (2, "it must be positive, got -0.5")),
+        (ROBOT, ("--drive", "--braking", "0.5", "--speed", "-1"), (2, "it must be positive, got -1.0")),
+        ("wheels = 4", (), (1, "a robot has no 'wheels', only radius,")),
+        ("radius = [1]", (), (1, "radius must be a number, a text, true or false, got [1]")),
+        ("radius = ", (), (1, "a file of a robot must be TOML")),
+        ('radius = "big"', (), (2, "Invalid value for '--radius'")),
+    ],
+)
+def test_a_file_of_a_robot_gives_options_their_values(pilotage, tmp_path, content, words, refusal):
+    path = tmp_path / "robot.toml"
+    path.write_text(content)
+    outcome = pilotage("ros2", worlds.OFFICE.careful, "--robot", path, *words)
+
+    assert refusal[0] == outcome.code
+    assert refusal[1] in " ".join(outcome.err.replace("│", " ").split())

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pilotage.cli.options import check_positive, parse_footprint
+from pilotage.errors import FileError, shown
 from pilotage.ros.link import Transport
 
 if TYPE_CHECKING:
@@ -27,6 +28,54 @@ OdometryTopic = Annotated[str, typer.Option("--odom-topic", help="Topic of the o
 CommandTopic = Annotated[str, typer.Option("--cmd-topic", help="Topic of the commands.")]
 Stamped = Annotated[
     bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
+]
+
+PARAMETERS = {
+    "radius": "radius",
+    "footprint": "footprint",
+    "speed": "speed",
+    "turn-rate": "turn_rate",
+    "braking": "braking",
+    "domain": "domain",
+    "transport": "transport",
+    "namespace": "namespace",
+    "scan-topic": "scan_topic",
+    "odom-topic": "odometry_topic",
+    "cmd-topic": "command_topic",
+    "stamped": "stamped",
+}
+"""What a file for `--robot` may hold: options of the same names, and the arguments that take them."""
+
+
+def take_robot(context: typer.Context, path: Path | None) -> Path | None:
+    """Let the values of a file be the defaults of the options of the same names."""
+    if path is not None:
+        context.default_map = {**(context.default_map or {}), **read_robot(path)}
+    return path
+
+
+def read_robot(path: Path) -> dict[str, object]:
+    """Read a file that describes a robot; FileError if it holds anything else."""
+    from pilotage.io.toml_files import read_toml
+
+    values = read_toml(path, "a file of a robot")
+    for name, value in values.items():
+        if name not in PARAMETERS:
+            raise FileError(f"a robot has no {shown(name)}, only {', '.join(PARAMETERS)}", path)
+        if not isinstance(value, str | int | float):
+            raise FileError(f"{name} must be a number, a text, true or false, got {shown(value)}", path)
+    return {PARAMETERS[name]: value for name, value in values.items()}
+
+
+RobotFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--robot",
+        metavar="FILE",
+        is_eager=True,
+        callback=take_robot,
+        help="Size, limits and topics of the robot (TOML); options win over it.",
+    ),
 ]
 
 Limits = dict[str, float | None]

@@ -21,6 +21,7 @@ from pilotage.cli.robot import (
     Namespace,
     OdometryTopic,
     Radius,
+    RobotFile,
     ScanTopic,
     Speed,
     Stamped,
@@ -61,6 +62,7 @@ def ros2(
     localize_only: Annotated[
         bool, typer.Option("--localize-only", help="Stand in for AMCL: hear no goals, send no commands.")
     ] = False,
+    robot_file: RobotFile = None,  # noqa: ARG001  # its callback has used it
     radius: Radius = None,
     footprint: FootprintSize = None,
     speed: Speed = None,
@@ -114,6 +116,7 @@ def ros2(
     - Patrol: `pilotage ros2 office.svg --goal kitchen,hall,store --patrol`
     - Go on where it stopped: `pilotage ros2 office.svg --resume office.state`
     - `pilotage ros2 office.svg --goal kitchen --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
+    - The same with a file of the robot: `pilotage ros2 office.svg --goal kitchen --drive --robot robot.toml`
     """
     limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
     check_limits(limits, drive=drive)

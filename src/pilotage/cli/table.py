@@ -16,6 +16,7 @@ from pilotage.cli.robot import (
     Namespace,
     OdometryTopic,
     Radius,
+    RobotFile,
     ScanTopic,
     Speed,
     Stamped,
@@ -61,6 +62,7 @@ def table(
             "--drive", help="Let a person at the page send commands to that robot; else none is sent."
         ),
     ] = False,
+    robot_file: RobotFile = None,  # noqa: ARG001  # its callback has used it
     radius: Radius = None,
     footprint: FootprintSize = None,
     speed: Speed = None,
