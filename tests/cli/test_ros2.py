@@ -72,9 +72,12 @@ ROBOT = 'radius = 0.2\nspeed = 0.4\nturn-rate = 1\nbraking = -0.5\ndomain = 7\ns
         (ROBOT, ("--drive",), (2, "it must be positive, got -0.5")),
         (ROBOT, ("--drive", "--braking", "0.5", "--speed", "-1"), (2, "it must be positive, got -1.0")),
         ("wheels = 4", (), (1, "a robot has no 'wheels', only radius,")),
-        ("radius = [1]", (), (1, "radius must be a number, a text, true or false, got [1]")),
+        ("radius = [1]", (), (1, "radius must be a number, got [1]")),
         ("radius = ", (), (1, "a file of a robot must be TOML")),
-        ('radius = "big"', (), (2, "Invalid value for '--radius'")),
+        ('radius = "big"', (), (1, "radius must be a number, got 'big'")),
+        ("radius = true", (), (1, "radius must be a number, got True")),
+        ("domain = 7.5", (), (1, "domain must be a whole number, got 7.5")),
+        ('stamped = "yes"', (), (1, "stamped must be true or false, got 'yes'")),
     ],
 )
 def test_a_file_of_a_robot_gives_options_their_values(pilotage, tmp_path, content, words, refusal):

@@ -30,21 +30,23 @@ Stamped = Annotated[
     bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
 ]
 
+KINDS = {float: "a number", int: "a whole number", str: "a text", bool: "true or false"}
+"""Kinds of values in words."""
 PARAMETERS = {
-    "radius": "radius",
-    "footprint": "footprint",
-    "speed": "speed",
-    "turn-rate": "turn_rate",
-    "braking": "braking",
-    "domain": "domain",
-    "transport": "transport",
-    "namespace": "namespace",
-    "scan-topic": "scan_topic",
-    "odom-topic": "odometry_topic",
-    "cmd-topic": "command_topic",
-    "stamped": "stamped",
+    "radius": ("radius", float),
+    "footprint": ("footprint", str),
+    "speed": ("speed", float),
+    "turn-rate": ("turn_rate", float),
+    "braking": ("braking", float),
+    "domain": ("domain", int),
+    "transport": ("transport", str),
+    "namespace": ("namespace", str),
+    "scan-topic": ("scan_topic", str),
+    "odom-topic": ("odometry_topic", str),
+    "cmd-topic": ("command_topic", str),
+    "stamped": ("stamped", bool),
 }
-"""What a file for `--robot` may hold: options of the same names, and the arguments that take them."""
+"""What a file for `--robot` may hold: names of options, their arguments, and the kinds of values."""
 
 
 def take_robot(context: typer.Context, path: Path | None) -> Path | None:
@@ -62,9 +64,10 @@ def read_robot(path: Path) -> dict[str, object]:
     for name, value in values.items():
         if name not in PARAMETERS:
             raise FileError(f"a robot has no {shown(name)}, only {', '.join(PARAMETERS)}", path)
-        if not isinstance(value, str | int | float):
-            raise FileError(f"{name} must be a number, a text, true or false, got {shown(value)}", path)
-    return {PARAMETERS[name]: value for name, value in values.items()}
+        kind = PARAMETERS[name][1]
+        if type(value) is not kind and not (kind is float and type(value) is int):
+            raise FileError(f"{name} must be {KINDS[kind]}, got {shown(value)}", path)
+    return {PARAMETERS[name][0]: value for name, value in values.items()}
 
 
 RobotFile = Annotated[
