@@ -9,10 +9,12 @@ from pilotage.interpretation.interpret import Interpretation, NoWallsError, inte
 from pilotage.interpretation.meanings import Meaning
 from pilotage.interpretation.names import role_named, words_of
 from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation.zones import ZONE_ROLES
 
 __all__ = [
     "BLACK",
     "WHITE",
+    "ZONE_ROLES",
     "Bounds",
     "Color",
     "Interpretation",

@@ -8,6 +8,9 @@ from pilotage.geometry import Polyline
 from pilotage.interpretation.sheet import Mark, Role, Sheet
 from pilotage.maps import Zones
 
+ZONE_ROLES = (Role.KEEP_OUT, Role.SLOW, Role.ONE_WAY)
+"""The roles of the kinds of zones, in the order of `Zones.lines`."""
+
 
 def find_zones(sheet: Sheet, told: Sequence[tuple[Role, str] | None]) -> Zones:
     """Gather keep-out and slow areas, and one-way arrows; `told` is the role that a person gave each mark."""

@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw
 from pilotage.correction import CorrectedDrawing, PassageState
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline
-from pilotage.interpretation import Role
+from pilotage.interpretation import ZONE_ROLES
 from pilotage.io.files import replacing, write_text
 from pilotage.io.svg.reader import SCALE
 from pilotage.maps import Zones
@@ -117,10 +117,9 @@ def path_of(line: Polyline, attributes: str = "") -> str:
 
 def zone_marks(zones: Zones) -> list[str]:
     """Write where not to drive, where to drive slowly, and which way to pass, by the names of their roles."""
-    names = (Role.KEEP_OUT, Role.SLOW, Role.ONE_WAY)
     return [
         path_of(line, f'class="{role.value}" fill="none" stroke="gray" stroke-width="{num(THINNEST)}"')
-        for role, lines in zip(names, zones.lines, strict=True)
+        for role, lines in zip(ZONE_ROLES, zones.lines, strict=True)
         for line in lines
     ]
 

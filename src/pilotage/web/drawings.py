@@ -11,7 +11,7 @@ import numpy as np
 
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Array, Polyline
-from pilotage.interpretation import Role
+from pilotage.interpretation import ZONE_ROLES
 from pilotage.maps import SchematicMap
 from pilotage.web.order import Sent
 
@@ -30,7 +30,7 @@ LETTERS = 6.0
 """Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
 
 
-ZONES = (Role.KEEP_OUT.value, Role.SLOW.value, Role.ONE_WAY.value)
+ZONES = tuple(role.value for role in ZONE_ROLES)
 """Names of the kinds of zones, in their order."""
 
 
