@@ -13,7 +13,7 @@ from pilotage.figures.path import path_figure
 from pilotage.figures.scan import scan_figure
 from pilotage.figures.style import new_figure, save
 from pilotage.geometry import Polyline, Pose2
-from pilotage.localization import Status
+from pilotage.localization import Explanation, Status, WallEvidence
 from pilotage.maps import Label, SchematicMap
 from pilotage.perception import LaserScan, PerceptionSettings, perceive
 from pilotage.shape import Simplification, simplify_all
@@ -119,6 +119,19 @@ def test_what_was_seen_last_has_a_view_of_its_own():
     seen = path_figure(sketch, [estimate(0)], local_map=[Polyline.through([(1, 1), (2, 1)])])
 
     assert 1 + len(without.axes) == len(seen.axes)
+
+
+def test_walls_in_view_are_colored_by_what_they_say():
+    walls = tuple(
+        WallEvidence(np.array([[0.0, y], [9.0, y]]), 5, 0.1, shown, through)
+        for y, shown, through in ((0.0, 0.7, 0.1), (5.0, 0.6, 0.1), (9.0, 0.1, 0.8))
+    )
+    figure = path_figure(open_map(worlds.OFFICE.quick), [estimate(0)], explanation=Explanation("hall", walls))
+
+    words = legend_of(figure)
+    assert "wall: seen where it is drawn" in words
+    assert "wall: looked through" in words
+    assert "wall: something nearer is seen" not in words
 
 
 def test_a_path_of_nothing_is_refused():

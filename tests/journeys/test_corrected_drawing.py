@@ -1,5 +1,7 @@
 """From a log to the drawing in metres, by the command line; and on real logs the error is halved."""
 
+import re
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -29,12 +31,13 @@ min_count = 2000
 def test_the_packed_log_corrects_the_packed_sketch(pilotage, tmp_path):
     out, settings = tmp_path / "corrected.svg", tmp_path / "few.toml"
     settings.write_text(FEW_TOML)
-    words = ("-o", tmp_path / "out.jsonl", "--corrected", out, "--settings", settings)
+    words = ("-o", tmp_path / "out.jsonl", "--corrected", out, "--settings", settings, "--explain")
 
     outcome = pilotage("localize", OFFICE / "quick.svg", worlds.LOG, *words)
 
     assert 0 == outcome.code
     assert "Corrected: " in outcome.err
+    assert re.search(r"walls in view from .*: \d+ seen where", outcome.err)
     left, bottom, right, top = open_world(OFFICE / "world.svg").bounds
     assert open_map(out).diagonal == pytest.approx(np.hypot(right - left, top - bottom), rel=0.15)
     assert open_world(out) is not None

@@ -37,6 +37,13 @@ def localize(
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw the path on the drawing (.png, .svg, .pdf).")
     ] = None,
+    explain: Annotated[
+        bool,
+        typer.Option(
+            "--explain",
+            help="Tell which drawn walls speak for the last place and which against; the figure colors them.",
+        ),
+    ] = False,
     corrected: Annotated[
         Path | None,
         typer.Option(
@@ -73,6 +80,7 @@ def localize(
 
     - `pilotage localize office.svg run.log.gz -o out.jsonl --figure where.png`
     - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
+    - `pilotage localize office.svg run.log.gz --to 500 --explain --figure why.png`
     - `pilotage localize office.svg run.log.gz -o out.jsonl --corrected metres.svg`
     """
     corrections = [] if corrected is None else corrected_files(corrected)
@@ -86,10 +94,14 @@ def localize(
     with estimates_sink(output, sketch) as write:
         sightings: list[Sighting] = []
         trip = run(localizer, readings, write, None if corrected is None else sightings)
+    explanation = localizer.explain() if explain else None
     if figure is not None:
         with keeping(output):
-            draw(sketch, localizer, trip.estimates, figure, title=f"{log.name} in {drawing.name}")
+            title = f"{log.name} in {drawing.name}"
+            draw(sketch, localizer, trip.estimates, figure, explanation=explanation, title=title)
     say(trip.summary)
+    if explanation is not None:
+        say(explanation.summary)
     if corrected is not None:
         with keeping(output), signals_held():
             write_corrections(localizer.atlas, sightings, [corrected])

@@ -15,7 +15,7 @@ from pilotage.errors import FileError
 
 if TYPE_CHECKING:
     from pilotage.correction import Sighting
-    from pilotage.localization import Estimate, Localizer
+    from pilotage.localization import Estimate, Explanation, Localizer
     from pilotage.maps import SchematicMap
     from pilotage.perception import Reading
 
@@ -114,13 +114,15 @@ def draw(
     estimates: "Sequence[Estimate]",
     path: Path,
     *,
+    explanation: "Explanation | None" = None,
     title: str,
 ) -> None:
-    """Draw the path, and the local map as it is at the end."""
+    """Draw the path, the local map as it is at the end, and what is said of the walls in view."""
     from pilotage.figures.path import path_figure
     from pilotage.figures.style import save
 
     matcher = localizer.scan_matcher
     base_from_odom = matcher.odom_from_base.inverse()
     local_map = [shape.polyline.moved(base_from_odom) for shape in matcher.local_map.shapes]
-    save(path_figure(sketch, estimates, local_map=local_map, title=title), path)
+    figure = path_figure(sketch, estimates, local_map=local_map, explanation=explanation, title=title)
+    save(figure, path)

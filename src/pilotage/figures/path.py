@@ -12,13 +12,20 @@ from matplotlib.figure import Figure
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
 from pilotage.geometry import Array, Polyline
-from pilotage.localization import Estimate, Status
+from pilotage.localization import Estimate, Explanation, Status, Verdict
 from pilotage.maps import SchematicMap
 
 JUMP = 0.04
 """A step longer than this share of the drawing's diagonal is a change of mind, not a motion."""
 
 PAGE_WIDTH, PAGE_TALLEST, SIDE_WIDTH = 9.6, 9.0, 2.9  # [inches]
+
+VERDICTS = {
+    Verdict.SEEN: style.GATEWAY,
+    Verdict.HIDDEN: style.GOAL,
+    Verdict.LOOKED_THROUGH: style.ACCENT,
+}
+"""Colors of walls by what is seen of them."""
 
 VIEWED_SHARE = 0.9  # of the vertices of the local map lie in the close view
 CLOSEST_VIEW = 4.0  # [m] from the robot to the edge of the close view, at least
@@ -30,12 +37,14 @@ def path_figure(
     *,
     local_map: Sequence[Polyline] = (),
     truth: Array | None = None,
+    explanation: Explanation | None = None,
     title: str = "",
 ) -> Figure:
     """Draw the estimated path on the drawing, and beside it what the laser saw last, laid over the drawing.
 
     `local_map` holds what the robot saw on the last metres, in its base frame [m]; `truth` the true path,
-    where it is known, in the sketch frame, (n, 2) [drawing units].
+    where it is known, in the sketch frame, (n, 2) [drawing units]. An `explanation` of the last place colors
+    the walls in view by what they say.
     """
     if not estimates:
         raise ValueError("a path needs at least one estimate, got none")
@@ -46,6 +55,8 @@ def path_figure(
     figure = style.new_figure(width + SIDE_WIDTH + 1.1, height + 0.9)
     page = style.place(figure, 0.3, 0.3, width, height)
     draw_page(page, sketch, estimates, truth)
+    if explanation is not None:
+        draw_explanation(page, explanation)
     style.frame(page, np.array([left, bottom]), np.array([right, top]), margin=0.03)
     style.bare(page, title)
     page.set_anchor("NW")
@@ -117,6 +128,17 @@ def draw_rivals(axes: Axes, estimate: Estimate, diagonal: float) -> None:
             places[:, 0], places[:, 1], s=30.0 + 400.0 * sizes, facecolor="none", edgecolor=style.ACCENT,
             linewidths=1.4, zorder=9, label="other places held possible",
         )  # fmt: skip
+
+
+def draw_explanation(axes: Axes, explanation: Explanation) -> None:
+    """Color the walls in view by what the last metres say of them."""
+    for verdict, color in VERDICTS.items():
+        ends = [wall.ends for wall in explanation.having(verdict)]
+        if ends:
+            axes.add_collection(
+                LineCollection(ends, colors=color, linewidths=5.0, alpha=0.8, capstyle="round", zorder=2.5)
+            )
+            axes.plot([], [], color=color, linewidth=5.0, alpha=0.8, label=f"wall: {verdict.value}")
 
 
 def add_confidence_bar(figure: Figure, axes: Axes) -> None:

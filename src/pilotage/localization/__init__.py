@@ -1,6 +1,7 @@
 """Where the robot is on the drawing: the only layer that knows scan and map (Wolter 2001, section 3.4)."""
 
 from pilotage.localization.estimate import Estimate, PoseHypothesis, Status
+from pilotage.localization.explanation import Explanation, Verdict, WallEvidence
 from pilotage.localization.localizer import Localizer, LocalizerSettings, Observation
 from pilotage.localization.prior import Prior
 from pilotage.localization.sensor_model import SensorModel, SensorSettings
@@ -8,6 +9,7 @@ from pilotage.localization.tracks import Track, Tracks, TrackSettings
 
 __all__ = [
     "Estimate",
+    "Explanation",
     "Localizer",
     "LocalizerSettings",
     "Observation",
@@ -19,4 +21,6 @@ __all__ = [
     "Track",
     "TrackSettings",
     "Tracks",
+    "Verdict",
+    "WallEvidence",
 ]

@@ -8,7 +8,14 @@ import numpy as np
 
 from pilotage.geometry import Array, Pose2
 from pilotage.localization.estimate import Estimate, summarize
-from pilotage.localization.global_search import Keyframe, append_keyframe, global_search
+from pilotage.localization.explanation import Explanation, explain, walls_of
+from pilotage.localization.global_search import (
+    SCANS,
+    Keyframe,
+    append_keyframe,
+    choose_keyframes,
+    global_search,
+)
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.particles import Particles, join
 from pilotage.localization.prior import Prior, draw_anywhere, draw_near
@@ -164,6 +171,19 @@ class Localizer:
     def sample(self, count: int) -> Array:
         """Pick states of equally probable particles, for planning over all tracks, (6, count)."""
         return self.tracks.particles.picked(count)
+
+    def explain(self) -> Explanation:
+        """Tell which drawn walls speak for the best place of now, and which against.
+
+        ValueError before the first update.
+        """
+        estimate = self._keyframe_estimate
+        if estimate is None:
+            raise ValueError("an explanation needs at least one scan, got none")
+        least = Simplification(self.settings.atlas.detail * self.atlas.sketch.diagonal)
+        walls = walls_of(simplify_all(self.atlas.sketch.strokes, least))
+        keyframes = choose_keyframes(self._window, SCANS)
+        return explain(estimate.place, estimate.sketch_from_base, keyframes, walls, self._model)
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Take one scan in, give one estimate out."""

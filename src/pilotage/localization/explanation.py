@@ -1,0 +1,172 @@
+"""Which drawn walls speak for a place and which against, as the sensor model weighs them.
+
+Each reading is set against the wall that it should show from the place. What a wall adds to the evidence of
+the place is the sum of its readings' log-ratios to the null model, so a user sees what the filter sees.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage import kernels
+from pilotage.geometry import Affine2, Array, Polyline
+from pilotage.localization.global_search import Keyframe
+from pilotage.localization.sensor_model import NO_RETURN_BEYOND, NO_RETURN_RATIO, SensorModel
+
+FEWEST = 3
+"""Readings that a wall needs: fewer say nothing about it."""
+
+
+class Verdict(Enum):
+    """What the readings towards a wall say about the place."""
+
+    SEEN = "seen where it is drawn"
+    HIDDEN = "something nearer is seen"
+    LOOKED_THROUGH = "looked through"
+
+
+@dataclass(frozen=True, eq=False)
+class WallEvidence:
+    """What the readings of the last metres say about one drawn wall."""
+
+    ends: Array  # (2, 2) in the sketch frame, y up [drawing units]
+    readings: int
+    log_ratio: float  # [nats] mean over its readings, against the null model
+    shown: float  # [0..1] share of the readings that show it
+    through: float  # [0..1] share of the readings that end behind it
+
+    @property
+    def hidden(self) -> float:
+        """Share of the readings that end before it, [0..1]."""
+        return 1.0 - self.shown - self.through
+
+    @property
+    def verdict(self) -> Verdict:
+        """What most of the readings say."""
+        if self.shown >= max(self.hidden, self.through):
+            return Verdict.SEEN
+        return Verdict.LOOKED_THROUGH if self.through > self.hidden else Verdict.HIDDEN
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """The drawn walls in view from a place over the last metres."""
+
+    place: str
+    walls: tuple[WallEvidence, ...]  # those that add most to the evidence first
+
+    def having(self, verdict: Verdict) -> tuple[WallEvidence, ...]:
+        """Pick the walls of a verdict."""
+        return tuple(wall for wall in self.walls if wall.verdict is verdict)
+
+    @property
+    def summary(self) -> str:
+        """Say in one sentence what speaks for the place and what against.
+
+        >>> Explanation("the kitchen", ()).summary
+        'No wall in view from the kitchen.'
+        """
+        if not self.walls:
+            return f"No wall in view from {self.place}."
+        counts = {verdict: len(self.having(verdict)) for verdict in Verdict}
+        told = [f"{counts[verdict]} {verdict.value}" for verdict in Verdict if counts[verdict]]
+        walls = "wall" if len(self.walls) == 1 else "walls"
+        return f"{len(self.walls)} {walls} in view from {self.place}: {', '.join(told)}."
+
+
+def walls_of(strokes: Sequence[Polyline]) -> Array:
+    """List the segments of strokes, each a wall, as rows x1, y1, x2, y2, (k, 4)."""
+    rings = [stroke.ring for stroke in strokes]
+    rows = [np.hstack([ring[:-1], ring[1:]]) for ring in rings]
+    return np.vstack(rows) if rows else np.empty((0, 4))
+
+
+def explain(
+    place: str,
+    sketch_from_base: Affine2,
+    keyframes: tuple[Keyframe, ...],
+    walls: Array,
+    model: SensorModel,
+) -> Explanation:
+    """Set the readings of keyframes, the newest first, against the walls (k, 4) in view.
+
+    The newest was taken at `sketch_from_base`; the earlier ones follow by registered motion.
+    """
+    base_from_odom = keyframes[0].odom_from_base.inverse()
+    seen = [
+        _readings(sketch_from_base @ (base_from_odom @ keyframe.odom_from_base), keyframe, walls, model)
+        for keyframe in keyframes
+    ]
+    facing, errors, log_ratios, shares = (np.concatenate(column) for column in zip(*seen, strict=True))
+    return Explanation(place, _summed(walls, facing, errors, log_ratios, shares))
+
+
+def _readings(
+    sketch_from_base: Affine2, keyframe: Keyframe, walls: Array, model: SensorModel
+) -> tuple[NDArray[np.intp], Array, Array, Array]:
+    """Return of each reading that faces a wall: the wall, e, the log-ratio, the probability of a hit."""
+    scan, visibility = keyframe.scan, kernels.visibility
+    angles = scan.beams / visibility.HEADINGS * math.tau
+    ahead = np.column_stack([np.cos(angles), np.sin(angles)]) @ sketch_from_base.linear.T
+    ways, numbers = first_met(sketch_from_base.translation, ahead, walls)
+    faces = np.isfinite(ways) & (ways > 0.0)
+    numbers, levels, classes = numbers[faces], scan.levels[faces], scan.classes[faces]
+    log_predicted = np.log(ways[faces])
+    returned = levels != visibility.NO_RETURN
+    error = log_predicted - np.where(returned, levels * visibility.LOG_STEP, np.inf)
+    middle = model.log_ratios.shape[1] // 2
+    steps = np.clip(np.nan_to_num(error / visibility.LOG_STEP, neginf=-middle), -middle, middle)
+    columns = np.round(steps).astype(np.intp) + middle
+    near = log_predicted < math.log(NO_RETURN_BEYOND)
+    missing = np.where(near, NO_RETURN_RATIO, 0.0)
+    log_ratio = np.where(returned, model.log_ratios[classes, columns], missing)
+    shown = np.where(returned, model.hit_shares[classes, columns], 0.0)
+    counts = returned | near
+    return numbers[counts], error[counts], log_ratio[counts], shown[counts]
+
+
+def first_met(eye: Array, directions: Array, walls: Array) -> tuple[Array, NDArray[np.intp]]:
+    """Find the first wall (k, 4) that rays (n, 2) from a point meet: the way in ray lengths, and which, (n,).
+
+    A ray that meets none goes on to inf.
+    """
+    if len(walls) == 0:
+        return np.full(len(directions), np.inf), np.zeros(len(directions), np.intp)
+    start, along = walls[:, :2] - eye, walls[:, 2:] - walls[:, :2]
+    ray_x, ray_y = directions[:, 0, np.newaxis], directions[:, 1, np.newaxis]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # eye + way * ray = start + share * along, solved by Cramer's rule
+        determinant = ray_x * along[:, 1] - ray_y * along[:, 0]
+        way = (start[:, 0] * along[:, 1] - start[:, 1] * along[:, 0]) / determinant
+        share = (start[:, 0] * ray_y - start[:, 1] * ray_x) / determinant
+        ways = np.where((way >= 0.0) & (share >= 0.0) & (share <= 1.0), way, np.inf)
+    nearest = ways.argmin(axis=1)
+    return ways[np.arange(len(directions)), nearest], nearest
+
+
+def _summed(
+    walls: Array, facing: NDArray[np.intp], errors: Array, log_ratios: Array, shares: Array
+) -> tuple[WallEvidence, ...]:
+    """Gather the readings wall by wall."""
+    through = (1.0 - shares) * (errors < 0.0)
+    size = len(walls)
+    counts = np.bincount(facing, minlength=size)
+    sums, shown, behind = (
+        np.bincount(facing, values, minlength=size) for values in (log_ratios, shares, through)
+    )
+    found = np.flatnonzero(counts >= FEWEST)
+    found = found[np.argsort(-sums[found], kind="stable")]
+    return tuple(
+        WallEvidence(
+            walls[number].reshape(2, 2),
+            int(counts[number]),
+            float(sums[number] / counts[number]),
+            float(shown[number] / counts[number]),
+            float(behind[number] / counts[number]),
+        )
+        for number in found.tolist()
+    )
