@@ -8,8 +8,8 @@ import numpy as np
 from benchmarks.lib.protocols import travel_of
 from pilotage.geometry import Pose2
 from pilotage.localization.global_search import WINDOW, Keyframe, append_keyframe
-from pilotage.localization.localizer import LocalizerSettings, find_seen_corners
-from pilotage.localization.sensor_model import thin_scan
+from pilotage.localization.localizer import LocalizerSettings
+from pilotage.localization.observation import observe
 from pilotage.scan_matching import ScanMatcher
 
 HAND = "00"
@@ -52,7 +52,6 @@ def _look(building: str, first: int, end: int) -> Look:
         seen = matcher.update(reading.scan, reading.odometry)
         motion = motion @ seen.last_from_base
         if not window or settings.is_keyframe_due(motion):
-            corners = find_seen_corners(seen.shapes)
-            window = append_keyframe(window, motion, thin_scan(reading.scan), corners)
+            window = append_keyframe(window, observe(reading.scan, seen.shapes, motion))
             motion, newest = Pose2.identity(), index
     return Look(window, newest)

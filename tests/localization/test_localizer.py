@@ -11,9 +11,9 @@ from buildings import coarse, flat, readings_of, walk
 from pilotage.geometry import Pose2, Similarity2
 from pilotage.localization import Localizer, LocalizerSettings, Status, TrackSettings
 from pilotage.localization.global_search import append_keyframe, global_search
-from pilotage.localization.localizer import find_seen_corners
+from pilotage.localization.observation import observe
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
-from pilotage.localization.sensor_model import SensorModel, thin_scan
+from pilotage.localization.sensor_model import SensorModel
 from pilotage.maps import SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher
@@ -228,7 +228,7 @@ def test_a_search_of_the_whole_drawing_finds_the_place(atlas):
     for before, (scan, odometry) in itertools.pairwise([readings[0], *readings]):
         seen = matcher.update(scan, odometry)
         motion = before[1].odom_from_base.inverse() @ odometry.odom_from_base
-        window = append_keyframe(window, motion, thin_scan(scan), find_seen_corners(seen.shapes))
+        window = append_keyframe(window, observe(scan, seen.shapes, motion))
     model = SensorModel(atlas, SMALL.sensor)
     found = global_search(window, model, SMALL.prior, 6_000, np.random.default_rng(0))
     best = found.states[:, int(found.log_weights.argmax())]

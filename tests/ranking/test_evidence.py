@@ -5,7 +5,7 @@ from itertools import takewhile
 import pytest
 
 from pilotage import Localizer, LocalizerSettings, open_log, open_map, worlds
-from pilotage.ranking import observe, weigh
+from pilotage.ranking import observations_of, weigh
 from pilotage.ranking.evidence import reduced
 
 TRAVEL = 6.0
@@ -19,7 +19,7 @@ def readings():
 
 def test_the_evidence_is_that_of_a_localizer_that_reads_the_log(readings):
     localizer = Localizer(open_map(worlds.OFFICE.careful), SETTINGS, seed=3)
-    observations = observe(readings, TRAVEL, SETTINGS)
+    observations = observations_of(readings, TRAVEL, SETTINGS)
     last = observations[-1].stamp
     for reading in takewhile(lambda one: one.scan.stamp <= last, readings):
         estimate = localizer.update(reading.scan, reading.odometry)
@@ -31,14 +31,14 @@ def test_the_evidence_is_that_of_a_localizer_that_reads_the_log(readings):
 
 
 def test_no_more_is_looked_at_than_was_asked_for(readings):
-    observations = observe(readings, TRAVEL, SETTINGS)
+    observations = observations_of(readings, TRAVEL, SETTINGS)
 
     assert TRAVEL - 1.0 < sum(abs(complex(one.motion.x, one.motion.y)) for one in observations) < TRAVEL + 0.5
 
 
 def test_a_log_needs_a_scan():
     with pytest.raises(ValueError, match="a log needs a scan"):
-        observe([], TRAVEL, SETTINGS)
+        observations_of([], TRAVEL, SETTINGS)
 
 
 def test_a_share_of_the_particles_is_a_valid_setting():

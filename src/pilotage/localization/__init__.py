@@ -2,7 +2,8 @@
 
 from pilotage.localization.estimate import Estimate, PoseHypothesis, Status
 from pilotage.localization.explanation import Explanation, Verdict, WallEvidence
-from pilotage.localization.localizer import Localizer, LocalizerSettings, Observation
+from pilotage.localization.localizer import Localizer, LocalizerSettings
+from pilotage.localization.observation import Observation, observe
 from pilotage.localization.prior import Prior
 from pilotage.localization.sensor_model import SensorModel, SensorSettings
 from pilotage.localization.tracks import Track, Tracks, TrackSettings
@@ -23,4 +24,5 @@ __all__ = [
     "Tracks",
     "Verdict",
     "WallEvidence",
+    "observe",
 ]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Pose2
 from pilotage.localization.motion_model import WALL_PENALTY, find_blocked
+from pilotage.localization.observation import Observation
 from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
 from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
 from pilotage.localization.sensor_model import SensorModel, SparseScan
@@ -39,16 +40,14 @@ class Keyframe:
     travel: float  # [m]
 
 
-def append_keyframe(
-    window: tuple[Keyframe, ...], motion: Pose2, scan: SparseScan, corners: Corners
-) -> tuple[Keyframe, ...]:
-    """Add a keyframe after a motion, and drop those before the window."""
+def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
+    """Add a keyframe after its motion, and drop those before the window."""
     if not window:
-        return (Keyframe(scan, corners, Pose2.identity(), 0.0),)
+        return (Keyframe(seen.scan, seen.corners, Pose2.identity(), 0.0),)
     last = window[-1]
-    travel = last.travel + math.hypot(motion.x, motion.y)
+    travel = last.travel + math.hypot(seen.motion.x, seen.motion.y)
     kept = tuple(one for one in window if travel - one.travel <= WINDOW)
-    return (*kept, Keyframe(scan, corners, last.odom_from_base @ motion, travel))
+    return (*kept, Keyframe(seen.scan, seen.corners, last.odom_from_base @ seen.motion, travel))
 
 
 def global_search(

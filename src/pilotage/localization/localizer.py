@@ -17,19 +17,17 @@ from pilotage.localization.global_search import (
     global_search,
 )
 from pilotage.localization.motion_model import propagate
+from pilotage.localization.observation import Observation, observe
 from pilotage.localization.particles import Particles, join
 from pilotage.localization.prior import Prior, draw_anywhere, draw_near
-from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan, thin_scan
+from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
 from pilotage.localization.state import LocalizerState, fingerprint
 from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
-from pilotage.shape import PartialShape, Simplification, simplify_all
-from pilotage.shape.corners import Corners, find_corners
+from pilotage.shape import Simplification, simplify_all
 
-CORNERS = Simplification(min_relevance=0.08)
-"""[rad m] Simplification before corners are sought: a right angle between sides of 10 cm has 0.08."""
 NEW_TURN = math.radians(60.0)
 """[rad] of a turn on the spot after which a scan counts in full: beams repeat what was seen before."""
 FIT_MEMORY = 10
@@ -74,16 +72,6 @@ class LocalizerSettings:
     def novelty(self, motion: Pose2) -> float:
         """Return the weight of a keyframe after such a motion, [0..1]: after half a step it is half."""
         return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / NEW_TURN, 1.0)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Observation:
-    """What the robot saw at a keyframe, and how it moved to it; knows no drawing."""
-
-    scan: SparseScan
-    corners: Corners  # in the frame of the robot [m]
-    motion: Pose2  # since the last keyframe
-    stamp: float  # [s]
 
 
 class Localizer:
@@ -191,9 +179,7 @@ class Localizer:
         first = self._motion is None
         motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
         if first or self.settings.is_keyframe_due(motion):
-            self.add_keyframe(
-                Observation(thin_scan(scan), find_seen_corners(seen.shapes), motion, scan.stamp)
-            )
+            self.add_keyframe(observe(scan, seen.shapes, motion))
             motion = Pose2.identity()
         else:
             assert self._keyframe_estimate is not None
@@ -208,7 +194,7 @@ class Localizer:
         """
         settings, is_first = self.settings, not self._window
         scan, motion = seen.scan, seen.motion
-        self._window = append_keyframe(self._window, motion, scan, seen.corners)
+        self._window = append_keyframe(self._window, seen)
         particles, log_null = self.tracks.particles, self.tracks.log_null
         if not is_first:
             particles = propagate(particles, motion, self.atlas, self._prior, self._rng)
@@ -287,8 +273,3 @@ class Localizer:
         particles = Particles(states, np.full(states.shape[1], -math.log(states.shape[1])))
         particles, log_null, _ = normalized(particles.plus(math.log1p(-math.exp(log_null))), log_null)
         return Tracks((Track(particles),), log_null)
-
-
-def find_seen_corners(shapes: tuple[PartialShape, ...]) -> Corners:
-    """Find the corners of perceived shapes, in the robot's frame [m]."""
-    return find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))

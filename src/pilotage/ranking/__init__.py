@@ -1,6 +1,6 @@
 """Which of many drawings is of the building that a log was made in."""
 
-from pilotage.ranking.evidence import Evidence, observe, weigh
+from pilotage.ranking.evidence import Evidence, observations_of, weigh
 from pilotage.ranking.rank import Board, Score, rank
 
-__all__ = ["Board", "Evidence", "Score", "observe", "rank", "weigh"]
+__all__ = ["Board", "Evidence", "Score", "observations_of", "rank", "weigh"]

@@ -5,9 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from pilotage.geometry import Pose2
-from pilotage.localization import Localizer, LocalizerSettings, Observation
-from pilotage.localization.localizer import find_seen_corners
-from pilotage.localization.sensor_model import thin_scan
+from pilotage.localization import Localizer, LocalizerSettings, Observation, observe
 from pilotage.maps import Atlas
 from pilotage.perception import Reading
 from pilotage.scan_matching import ScanMatcher
@@ -22,7 +20,7 @@ class Evidence:
     probability: float  # of that place
 
 
-def observe(
+def observations_of(
     readings: Iterable[Reading], travel: float, settings: LocalizerSettings
 ) -> tuple[Observation, ...]:
     """Take the keyframes of the first metres of a log: the robot's side, the same for all drawings.
@@ -37,8 +35,7 @@ def observe(
         gone += math.hypot(seen.last_from_base.x, seen.last_from_base.y)
         motion = motion @ seen.last_from_base
         if not observations or settings.is_keyframe_due(motion):
-            corners = find_seen_corners(seen.shapes)
-            observations.append(Observation(thin_scan(reading.scan), corners, motion, reading.scan.stamp))
+            observations.append(observe(reading.scan, seen.shapes, motion))
             motion = Pose2.identity()
         if gone >= travel:
             break

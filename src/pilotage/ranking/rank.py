@@ -7,7 +7,7 @@ from pathlib import Path
 from pilotage.errors import FileError, PilotageError
 from pilotage.localization import LocalizerSettings, Observation
 from pilotage.maps import build_atlas
-from pilotage.ranking.evidence import Evidence, observe, reduced, weigh
+from pilotage.ranking.evidence import Evidence, observations_of, reduced, weigh
 from pilotage.workers import Workers
 
 COARSE = 1 / 8
@@ -168,7 +168,7 @@ def observe_log(task: LogTask) -> tuple[Observation, ...]:
     from pilotage.io import open_log
 
     try:
-        return observe(open_log(task.log), task.travel, SETTINGS)
+        return observations_of(open_log(task.log), task.travel, SETTINGS)
     except ValueError as error:
         raise FileError(str(error), task.log) from error
 
