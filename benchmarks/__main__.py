@@ -36,6 +36,7 @@ NAMES = (
     "registration",
     "odometry",
     "segmentation",
+    "surfaces",
     "cells",
     "plans",
     "plan_drives",

@@ -33,7 +33,7 @@ from pilotage.shape import PartialShape
 from pilotage.shape.corners import Corners
 from pilotage.shape.partial import EndCause
 
-VERSION = 1
+VERSION = 2
 """Of the format; a state of another version is refused."""
 
 LARGEST = 1 << 27
