@@ -82,7 +82,7 @@ class Walk:
     builder: SheetBuilder
     paths: int = 0
     picture_area: float = 0.0  # [points^2]
-    clips: dict[bytes, shapely.Geometry] = field(default_factory=dict)
+    clips: dict[tuple[Affine2, bytes], shapely.Geometry] = field(default_factory=dict)
     maps: dict[tuple[Affine2, Affine2], Affine2] = field(default_factory=dict)
 
     def read_page(self, page: "pypdfium2.PdfPage", where: Where) -> None:
@@ -150,12 +150,16 @@ class Walk:
 
     def clip_of(self, handle: Handle, where: Where) -> shapely.Geometry | None:
         """Return the area that an object is cut to; None if it is not cut."""
-        clips = [[where.shown_from_here @ points for points, _ in subpaths] for subpaths in clips_of(handle)]
+        clips = clips_of(handle)
         if not clips:
             return None
-        key = b"|".join(points.tobytes() for rings in clips for points in (*rings, np.empty(0)))
+        parts = b"|".join(
+            points.tobytes() for path in clips for points in (*(p for p, _ in path), np.empty(0))
+        )
+        key = (where.shown_from_here, parts)
         if key not in self.clips:
-            areas = [area_of(rings) for rings in clips if rings]
+            shown = [[where.shown_from_here @ points for points, _ in path] for path in clips]
+            areas = [area_of(rings) for rings in shown if rings]
             self.clips[key] = shapely.intersection_all(areas) if areas else shapely.Polygon()
         return self.clips[key]
 
