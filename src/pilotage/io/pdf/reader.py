@@ -14,7 +14,7 @@ from pilotage.geometry import Affine2, Polyline, signed_area
 from pilotage.interpretation.sheet import Color, Pen, Sheet
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.pdf.clip import area_of, clipped_area, clipped_lines, contains
+from pilotage.io.pdf.clip import Clip, area_of, clipped_area, clipped_lines
 from pilotage.io.pdf.document import open_page, opened, page_names
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.paths import Handle, clips_of, layers_of, matrix_of, paint_of, path_of, stroke_of
@@ -82,7 +82,7 @@ class Walk:
     builder: SheetBuilder
     paths: int = 0
     picture_area: float = 0.0  # [points^2]
-    clips: dict[tuple[Affine2, bytes], shapely.Geometry] = field(default_factory=dict)
+    clips: dict[tuple[Affine2, bytes], Clip] = field(default_factory=dict)
     maps: dict[tuple[Affine2, Affine2], Affine2] = field(default_factory=dict)
 
     def read_page(self, page: "pypdfium2.PdfPage", where: Where) -> None:
@@ -148,7 +148,7 @@ class Walk:
             self.maps[key] = shown_from_here @ here_from_object
         return self.maps[key]
 
-    def clip_of(self, handle: Handle, where: Where) -> shapely.Geometry | None:
+    def clip_of(self, handle: Handle, where: Where) -> Clip | None:
         """Return the area that an object is cut to; None if it is not cut."""
         clips = clips_of(handle)
         if not clips:
@@ -160,7 +160,7 @@ class Walk:
         if key not in self.clips:
             shown = [[where.shown_from_here @ points for points, _ in path] for path in clips]
             areas = [area_of(rings) for rings in shown if rings]
-            self.clips[key] = shapely.intersection_all(areas) if areas else shapely.Polygon()
+            self.clips[key] = Clip(shapely.intersection_all(areas) if areas else shapely.Polygon())
         return self.clips[key]
 
 
@@ -171,16 +171,16 @@ def parts_of(
     outlines: Sequence[Polyline],
     pen: Pen | None,
     fill: Color | None,
-    clip: shapely.Geometry | None,
+    clip: Clip | None,
     *,
     winding: bool,
 ) -> Iterator[Part]:
     """Divide a path into marks: areas that overlap by the winding rule, and what a clip leaves."""
-    if clip is not None and not contains(clip, np.vstack([outline.vertices for outline in outlines])):
+    if clip is not None and not clip.leaves_whole(np.vstack([outline.vertices for outline in outlines])):
         if fill is not None:
-            yield clipped_area(outlines, clip), None, fill
+            yield clipped_area(outlines, clip.area), None, fill
         if pen is not None:
-            yield clipped_lines(outlines, clip), pen, None
+            yield clipped_lines(outlines, clip.area), pen, None
     elif fill is not None and winding and len(outlines) > 1 and turn_alike(outlines):
         for outline in outlines:
             yield (outline,), pen, fill
