@@ -1,6 +1,6 @@
 // The page: the sheet with what is understood of it, or a drive on it.
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
-import type { AppState, BinaryFileData, ExcalidrawImperativeAPI, ExcalidrawProps } from "@excalidraw/excalidraw/types";
+import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { sendRecording, SVG } from "./api";
 import { cellAt, describeCell } from "./cells";
@@ -9,14 +9,16 @@ import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
 import { DriveControls } from "./DriveControls";
 import { DriveSetup, FIRST_CHOICE, orderOf } from "./DriveSetup";
 import { DriveView } from "./DriveView";
+import { AT_FIRST, OFFERED } from "./editor";
 import type { Fate } from "./fate";
 import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
-import { COLOR, goalOf, newGoal, newMeasure, newStart, PEN, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
+import { COLOR, goalOf, newGoal, newMeasure, newStart, PEN, recolored, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
-import { Sign, ToolLayer, TOOLS, type Tool } from "./Tools";
+import { Toolbar } from "./Toolbar";
+import { ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive, type Order } from "./useDrive";
@@ -26,14 +28,6 @@ import { remark, useUnderstanding } from "./useUnderstanding";
 const GOAL_SIZE = 24;
 const START_LENGTH = 50; // of a start arrow that was only clicked [scene units]
 const NOTICE_MS = 6000;
-
-// The editor's properties never change, so that it is not painted anew with each frame of a drive.
-const AT_FIRST: ExcalidrawProps["initialData"] = {
-  appState: { currentItemRoughness: 0, currentItemStrokeWidth: 2, currentItemRoundness: "sharp", currentItemStrokeColor: COLOR.wall, currentItemFontFamily: 5, viewBackgroundColor: "#ffffff" },
-};
-const OFFERED: ExcalidrawProps["UIOptions"] = {
-  canvasActions: { export: false, saveToActiveFile: false, loadScene: false, saveAsImage: false, toggleTheme: false, changeViewBackgroundColor: false, clearCanvas: false }, tools: { image: false },
-};
 
 export function App() {
   const [editor, setEditor] = useState<ExcalidrawImperativeAPI | null>(null);
@@ -265,21 +259,7 @@ export function App() {
               preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : tool === "start" || tool === "measure" ? [from, to] : [])}
             />
           )}
-          <div className="own-tools" role="toolbar" aria-label="Tools of the drawing table">
-            {TOOLS.map((one) => (
-              <button key={one.tool} aria-pressed={tool === one.tool} title={one.hint} onClick={() => choose(tool === one.tool ? "none" : one.tool)}>
-                <Sign name={one.sign} />
-                <span>{one.text}</span>
-              </button>
-            ))}
-            <hr />
-            {STYLES.map((one) => (
-              <button key={one} aria-pressed={style === one} title={STYLE_HINT[one] ?? `Draw ${one}, or make what is selected ${one}`} onClick={() => setPen(one)}>
-                <i className="swatch" style={{ background: COLOR[one] }} />
-                <span>{one}</span>
-              </button>
-            ))}
-          </div>
+          <Toolbar tool={tool} choose={choose} style={style} setPen={setPen} />
           {welcome && <Welcome opening={opening} close={() => setWelcome(false)} />}
           <div className="bottom-line">
             <Findings told={told} error={error} mend={mend} />
@@ -318,6 +298,3 @@ export function App() {
     </div>
   );
 }
-
-const recolored = (one: Element, style: Style): Element =>
-  ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;

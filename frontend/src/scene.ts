@@ -203,3 +203,7 @@ export function scaleOf(elements: readonly Element[]): number | null {
     .filter((scale) => Number.isFinite(scale) && scale > 0);
   return scales.length ? scales.reduce((a, b) => a + b) / scales.length : null;
 }
+
+/** Give an element the color of another style. */
+export const recolored = (one: Element, style: Style): Element =>
+  ({ ...one, strokeColor: COLOR[style], customData: undefined, version: one.version + 1, versionNonce: one.versionNonce + 1 }) as Element;

@@ -78,7 +78,7 @@ def test_a_fit_that_fails_is_left_out_and_the_next_one_is_made(
 
     seen = sightings()
     corrector = Bending(ATLAS, seen, multiprocessing.Pipe()[1])
-    monkeypatch.setattr(bending, "correct_drawing", failing)
+    monkeypatch.setattr(bending, "fit_drawing", failing)
     corrector.begin_if_due(is_over=True)
     assert heard(corrector) is None
     monkeypatch.undo()

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self, overload
 
 import numpy as np
@@ -43,9 +44,13 @@ class Affine2:
 
     def __hash__(self) -> int:
         """Hash the numbers."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
         return hash((self.linear.tobytes(), self.translation.tobytes()))
 
-    @property
+    @cached_property
     def scale(self) -> float:
         """Units of frame a in a unit of frame b, the mean of all directions."""
         return math.sqrt(abs(float(np.linalg.det(self.linear))))

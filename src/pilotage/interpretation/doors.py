@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, Arc, find_arcs
 from pilotage.interpretation.leaves import find_leaves
-from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of, united
 from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Mark, Sheet
 
@@ -172,7 +172,7 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
     left = list(seen)
     if not seen:
         return left
-    tree = shapely.STRtree(np.array([shape_of(mark) for mark in seen]))
+    tree = shapely.STRtree(np.array([united(mark.line, mark.area) for mark in seen]))
     for door in doors:
         reach = shapely.union(door.swing, door.opening)
         shapely.prepare([door.swing, door.opening])
@@ -191,11 +191,6 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
             whole = mark.whole and line.equals(mark.line)
             left[place] = Seen(mark.number, line, area, whole)
     return left
-
-
-def shape_of(mark: Seen) -> shapely.Geometry:
-    """Return all that is seen of a mark; most have no area, and need no union."""
-    return mark.line if mark.area.is_empty else shapely.union(mark.line, mark.area)
 
 
 def without_leaf(line: shapely.Geometry, door: Door) -> shapely.Geometry:

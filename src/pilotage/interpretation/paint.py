@@ -37,7 +37,7 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
     inked = [mark.pen is not None and difference(mark.pen.color, ground) >= FAINT for mark in marks]
     lines = [line_of(mark) if shown else NOTHING for mark, shown in zip(marks, inked, strict=True)]
     covers = [cover_of(mark, area, ground, EDGE * diagonal) for mark, area in zip(marks, areas, strict=True)]
-    tree = shapely.STRtree(np.array([shapely.union(*pair) for pair in zip(lines, areas, strict=True)]))
+    tree = shapely.STRtree(np.array([united(*pair) for pair in zip(lines, areas, strict=True)]))
     hidden: dict[int, list[int]] = {}
     for later, cover in enumerate(covers):
         if not cover.is_empty:
@@ -57,6 +57,11 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
             whole = not above or bool(np.isclose(line.length, lines[place].length, rtol=1e-6))
             seen.append(Seen(number, line, area, whole))
     return seen
+
+
+def united(first: shapely.Geometry, second: shapely.Geometry) -> shapely.Geometry:
+    """Put two shapes together; of the line and the area of most marks one is empty, and needs no union."""
+    return first if second.is_empty else second if first.is_empty else shapely.union(first, second)
 
 
 def line_of(mark: Mark) -> shapely.Geometry:
@@ -96,7 +101,7 @@ def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:
     return shapely.multipolygons(parts) if parts else NOTHING
 
 
-def parts_of(shape: shapely.Geometry) -> NDArray[np.object_]:
+def parts_of(shape: shapely.Geometry | NDArray[np.object_]) -> NDArray[np.object_]:
     """List all simple parts of nested collections."""
     parts = np.atleast_1d(shapely.get_parts(shape))
     while (shapely.get_type_id(parts) >= shapely.GeometryType.MULTIPOINT).any():

@@ -2,10 +2,12 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 import shapely
 
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.paint import NOTHING, parts_of
+from pilotage.interpretation.pieces import on_grid, straight
 
 ROOM_AREA = 4.0
 """What a thin wall parts is a room if it has so much area, in squares over a door's width; a bed has less."""
@@ -22,11 +24,13 @@ def find_partitions(
 ) -> shapely.Geometry:
     """Find lines outside solids that part one room from the next."""
     body = shapely.buffer(solid, TOUCHING * width, join_style="mitre")
-    loose = shapely.difference(lines, body)
+    loose = outside(lines, body)
     if loose.is_empty:
         return NOTHING
     closing = [shapely.LineString([door.hinge, door.latch]) for door in doors]
-    noded = shapely.union_all([loose, shapely.boundary(body), *closing], grid_size=TOUCHING * width / 4.0)
+    grain = TOUCHING * width / 4.0
+    pieces = on_grid(straight(np.array([loose, shapely.boundary(body), *closing])), grain)
+    noded = shapely.union_all(shapely.multilinestrings(shapely.linestrings(pieces)), grid_size=grain)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
     large = faces[shapely.area(faces) >= ROOM_AREA * width**2]  # first: most faces are pieces of furniture
     inner = ~shapely.contains(body, shapely.point_on_surface(large))
@@ -43,3 +47,13 @@ def find_partitions(
     shared = shapely.buffer(shapely.union_all(common), TOUCHING * width / 4.0) if common else NOTHING
     kept = [part for part in parts_of(shapely.intersection(loose, shared)) if part.length > TOUCHING * width]
     return shapely.multilinestrings(kept) if kept else NOTHING
+
+
+def outside(lines: shapely.Geometry, body: shapely.Geometry) -> shapely.Geometry:
+    """Return what of lines lies outside a body; only the lines that cross its border are cut."""
+    parts = parts_of(lines)
+    shapely.prepare(body)
+    cut = shapely.intersects(body, parts)
+    parts[cut] = shapely.difference(parts[cut], body)
+    left = [part for part in parts_of(parts) if not part.is_empty]
+    return shapely.multilinestrings(left) if left else NOTHING

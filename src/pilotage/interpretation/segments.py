@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Array
-from pilotage.interpretation.paint import Seen, parts_of
+from pilotage.interpretation.paint import Seen, united
+from pilotage.interpretation.pieces import straight
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,11 +31,7 @@ class Segments:
 
 def segments_of(seen: Sequence[Seen]) -> Segments:
     """Take all lines and borders of areas apart."""
-    ends = [np.empty((0, 2, 2))]
-    for mark in seen:
-        border = mark.line if mark.area.is_empty else shapely.union(mark.line, shapely.boundary(mark.area))
-        for part in parts_of(border):
-            points = shapely.get_coordinates(part)
-            if len(points) > 1:
-                ends.append(np.stack([points[:-1], points[1:]], axis=1))
-    return Segments(np.concatenate(ends))
+    borders = [
+        mark.line if mark.area.is_empty else united(shapely.boundary(mark.area), mark.line) for mark in seen
+    ]
+    return Segments(straight(np.array(borders, dtype=object)))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.paint import NOTHING, parts_of
+from pilotage.interpretation.pieces import joined, on_grid, straight, without_hatching, without_scribble
 from pilotage.interpretation.sheet import Color
 
 THICKEST = 0.04
@@ -45,6 +46,9 @@ PAINTED = 1.4
 
 HAIR = 0.02
 """What is thinner than this share of the greatest thickness is a line, and no wall with a thickness."""
+
+FINE = 0.125
+"""Pieces that are nearer than this share of such a line's thickness lie on one line."""
 
 CRUMB = 2.5
 """Free-standing solids that are smaller than this many thicknesses are letters, handles and the like."""
@@ -106,13 +110,7 @@ def greatest_thickness(lines: shapely.Geometry, door_width: float | None, diagon
     """Tell how far apart the faces of the thickest wall are; None if walls seem to be single lines."""
     if door_width is not None:
         return DOOR_SHARE * door_width
-    return paired_distance(straight(lines), diagonal)
-
-
-def straight(lines: shapely.Geometry) -> Array:
-    """Take lines apart, (n, 2, 2)."""
-    points, owners = shapely.get_coordinates(parts_of(lines), return_index=True)
-    return np.asarray(np.stack([points[:-1], points[1:]], axis=1)[owners[:-1] == owners[1:]])
+    return paired_distance(straight(shapely.union_all(lines)), diagonal)
 
 
 def paired_distance(ends: Array, diagonal: float) -> float | None:
@@ -151,21 +149,14 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
 def filled_between(lines: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
     """Fill what lies between lines and solids no farther apart than a wall is thick, by closing."""
     hair = HAIR * thickness
-    pieces = shapely.linestrings(without_scribble(straight(lines), SCRIBBLE * thickness))
-    bars = shapely.buffer(pieces, thickness / 2.0, cap_style="square")
+    pieces = without_scribble(joined(straight(lines), FINE * hair), SCRIBBLE * thickness)
+    pieces = without_hatching(pieces, thickness, hair)
+    bars = shapely.buffer(shapely.linestrings(pieces), thickness / 2.0, cap_style="square")
     grown = shapely.buffer(solid, thickness / 2.0, join_style="mitre")
     both = shapely.union_all([*bars, grown])
     closed = shapely.buffer(both, hair - thickness / 2.0, join_style="mitre")
     opened = shapely.buffer(shapely.buffer(closed, -2.0 * hair, join_style="mitre"), hair, join_style="mitre")
     return shapely.simplify(shapely.union(opened, solid), hair)
-
-
-def without_scribble(ends: Array, step: float) -> Array:
-    """Keep one of all pieces (n, 2, 2) that are shorter than a step and have their middle in one square."""
-    short = np.hypot(*(ends[:, 1] - ends[:, 0]).T) < step
-    squares = np.floor(ends[short].mean(axis=1) / step)
-    _, first = np.unique(squares, axis=0, return_index=True)
-    return np.concatenate([ends[~short], ends[short][np.sort(first)]])
 
 
 def without_crumbs(solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
@@ -183,10 +174,7 @@ def extent(shape: shapely.Geometry) -> float:
 
 def enclosed(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> float:
     """Measure the area that solids and lines enclose once gaps are closed."""
-    ends = np.round(straight(lines) / (COARSE * gap))
-    ends = np.unique(np.sort(ends.view(complex).reshape(-1, 2)), axis=0)  # hatching: many become one
-    ends = ends[ends[:, 0] != ends[:, 1]] * COARSE * gap
-    bars = shapely.linestrings(np.stack([ends.real, ends.imag], axis=-1))
+    bars = shapely.linestrings(on_grid(straight(lines), COARSE * gap))  # of hatching many become one
     pieces = np.concatenate([parts_of(solid), bars])  # one by one: all at once takes 20 times as long
     grown = shapely.union_all(shapely.buffer(pieces, gap / 2.0, quad_segs=2))
     rings: NDArray[np.object_] = np.array(

@@ -74,8 +74,8 @@ class Drawn:
 
     solid: shapely.Geometry  # areas in the colors of walls
     colors: frozenset[Color]
-    main: shapely.Geometry  # lines in black or gray
-    marginal: shapely.Geometry  # lines in a color, and dashed ones
+    main: shapely.Geometry  # lines in black or gray, as they were drawn: they may cross and overlap
+    marginal: shapely.Geometry  # lines in a color, and dashed ones, likewise
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows
     doors: Sequence[Door]
@@ -84,7 +84,7 @@ class Drawn:
     @cached_property
     def lines(self) -> shapely.Geometry:
         """All lines."""
-        return shapely.union_all([self.main, self.marginal])
+        return shapely.multilinestrings(np.concatenate([parts_of(self.main), parts_of(self.marginal)]))
 
     @cached_property
     def openings(self) -> shapely.Geometry:
@@ -179,11 +179,12 @@ def black_lines(drawn: Drawn) -> Walls | None:
     if everything == 0.0 or enclosed(NOTHING, drawn.main, gap) < NEARLY_ALL * everything:
         return None
     edge = EDGE * drawn.diagonal
-    body = shapely.union_all(shapely.buffer(parts_of(drawn.main), edge))  # all at once is far slower
-    others = shapely.difference(drawn.marginal, body)
+    main = shapely.union_all(drawn.main)
+    body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
+    others = shapely.difference(shapely.union_all(drawn.marginal), body)
     parting = find_partitions(others, body, drawn.doors, drawn.door_width or USUAL_DOOR * drawn.diagonal)
     long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
-    return Walls(drawn.solid, shapely.union_all([drawn.main, parting, *long]), drawn.colors)
+    return Walls(drawn.solid, shapely.union_all([main, parting, *long]), drawn.colors)
 
 
 def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
@@ -195,7 +196,8 @@ def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shap
         if pen is not None and not mark.line.is_empty:
             is_marginal = pen.dashed or max(pen.color) - min(pen.color) >= COLORFUL
             (marginal if is_marginal else main).append(mark.line)
-    return shapely.union_all(main), shapely.union_all(marginal)
+    black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
+    return shapely.multilinestrings(black), shapely.multilinestrings(other)
 
 
 def is_floor(color: Color, ground: Color) -> bool:

@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from pilotage.correction import CorrectedDrawing, NothingBelievedError, Sighting, correct_drawing
+from pilotage.correction import Fit, Sighting, fit_drawing, give_way
 from pilotage.io.bags.bent_frame import BentFrame
 from pilotage.maps import Atlas
 from pilotage.ros.session import Session
@@ -21,8 +21,6 @@ SIGHTINGS = 20
 """and not before so many more sightings, 10 m of travel."""
 MOVED = 0.05
 """[m] by which something must have moved on it."""
-POLITE = 10
-"""Added to the niceness of the process: the robot goes first."""
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 
@@ -49,7 +47,7 @@ class Correcting:
         self._asked = -np.inf
         self.waits = False  # for a correction
         self._is_over = False
-        self.took = 0.0  # [s] of the last correction, in its process
+        self.took = 0.0  # [s] of the processor, for the last correction
 
     def look(self) -> None:
         """Ask for a correction if one is due, and take one that is there; it takes a millisecond."""
@@ -57,7 +55,7 @@ class Correcting:
             return
         try:
             if self.waits and self._connection.poll(0.0):
-                self._take(*self._connection.recv())
+                self._take(self._connection.recv())
             elif not self.waits and self._is_due:
                 self._ask()
         except (EOFError, OSError):
@@ -84,9 +82,10 @@ class Correcting:
         self._connection.send((is_anew, seen[0 if is_anew else self._sent :]))
         self._sent, self._began, self._asked, self.waits = len(seen), began, self._clock(), True
 
-    def _take(self, corrected: CorrectedDrawing | None, took: float) -> None:
+    def _take(self, fit: Fit) -> None:
         """Use a corrected drawing if it is news."""
-        self.waits, self.took = False, took
+        self.waits, self.took = False, fit.took
+        corrected = fit.corrected
         if corrected is None or self._began != self._session.sightings_began:
             return  # the robot was hardly sure yet, or began anew meanwhile
         before = self._session.frame
@@ -104,19 +103,13 @@ class Correcting:
 def correct_on_demand(connection: Connection, atlas: Atlas) -> None:
     """Correct the drawing by all sightings that came, whenever some come, until the connection is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the robot's process
-    if hasattr(os, "nice"):
-        os.nice(POLITE)
+    give_way()
     sightings: list[Sighting] = []
     with contextlib.suppress(EOFError, OSError):
         while True:
             is_anew, new = connection.recv()
             sightings = [*(() if is_anew else sightings), *new]
-            began = time.perf_counter()
-            try:
-                corrected = correct_drawing(atlas, sightings)
-            except NothingBelievedError:
-                corrected = None
-            connection.send((corrected, time.perf_counter() - began))
+            connection.send(fit_drawing(atlas, sightings))
 
 
 @contextlib.contextmanager

@@ -9,7 +9,7 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from pilotage.correction import CorrectedDrawing, NothingBelievedError, Sighting, correct_drawing
+from pilotage.correction import CorrectedDrawing, Sighting, fit_drawing, give_way
 from pilotage.geometry import Polyline, fit_similarity
 from pilotage.maps import Atlas, SchematicMap
 from pilotage.web.drawings import Json, Page
@@ -18,10 +18,9 @@ SIGHTINGS = 6
 """New sightings until the drawing is corrected again: 3 m of travel."""
 REST = 10.0
 """Pause after a fit, in times of the processor that it took: fits use less than a tenth of one."""
-POLITE = 10
-"""Added to the niceness of a fit, so that the drive goes first."""
 
-Work = Callable[[], Json | None]
+Work = Callable[[], tuple[Json | None, float]]
+"""Returns what a fit found, for the page, and how long it took [s of the processor]."""
 
 
 class Bending:
@@ -67,25 +66,24 @@ class Bending:
     def _work(self, sightings: Sequence[Sighting]) -> Work:
         """Return the fit that is to be made."""
 
-        def work() -> Json | None:
-            try:
-                return describe_corrected(correct_drawing(self._atlas, sightings), self._atlas.sketch)
-            except NothingBelievedError:
-                return None
+        def work() -> tuple[Json | None, float]:
+            fit = fit_drawing(self._atlas, sightings)
+            sketch = self._atlas.sketch
+            return None if fit.corrected is None else describe_corrected(fit.corrected, sketch), fit.took
 
         return work
 
 
 def forked(work: Work, inherited: Connection) -> tuple[int, Connection]:
-    """Do some work in a copy of this process; return its id, and where to hear result and time taken [s]."""
+    """Do some work in a copy of this process; return its id, and where to hear what it returns."""
     here, there = multiprocessing.Pipe(duplex=False)
     process = os.fork()
     if process == 0:
         try:
             inherited.close()
             here.close()
-            os.nice(POLITE)
-            there.send((work(), time.process_time()))
+            give_way()
+            there.send(work())
         finally:
             os._exit(0)
     there.close()

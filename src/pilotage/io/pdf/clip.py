@@ -1,6 +1,8 @@
 """Cut what is drawn to what its clip leaves of it."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 import shapely
 
@@ -17,14 +19,28 @@ def area_of(rings: Sequence[Array]) -> shapely.Geometry:
     return area
 
 
-def contains(clip: shapely.Geometry, points: Array) -> bool:
-    """Tell whether a clip leaves a shape with these points (n, 2) whole, if that is plain to see."""
-    if clip.is_empty:
-        return False
-    left, bottom, right, top = clip.bounds
-    (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
-    is_box = bool(clip.area >= 0.999 * (right - left) * (top - bottom))
-    return is_box and bool(left <= x0 and bottom <= y0 and x1 <= right and y1 <= top)
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """What shapes are cut to."""
+
+    area: shapely.Geometry
+
+    @cached_property
+    def box(self) -> tuple[float, float, float, float] | None:
+        """Left, bottom, right and top if it is a rectangle along the axes."""
+        if self.area.is_empty:
+            return None
+        left, bottom, right, top = shapely.bounds(self.area).tolist()
+        is_box = self.area.area >= 0.999 * (right - left) * (top - bottom)
+        return (left, bottom, right, top) if is_box else None
+
+    def leaves_whole(self, points: Array) -> bool:
+        """Tell whether a shape with these points (n, 2) stays whole, if that is plain to see."""
+        if self.box is None:
+            return False
+        left, bottom, right, top = self.box
+        (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        return bool(left <= x0 and bottom <= y0 and x1 <= right and y1 <= top)
 
 
 def clipped_lines(outlines: Sequence[Polyline], clip: shapely.Geometry) -> list[Polyline]:

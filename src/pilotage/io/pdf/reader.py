@@ -14,7 +14,7 @@ from pilotage.geometry import Affine2, Polyline, signed_area
 from pilotage.interpretation.sheet import Color, Pen, Sheet
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.pdf.clip import area_of, clipped_area, clipped_lines, contains
+from pilotage.io.pdf.clip import Clip, area_of, clipped_area, clipped_lines
 from pilotage.io.pdf.document import open_page, opened, page_names
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.paths import Handle, clips_of, layers_of, matrix_of, paint_of, path_of, stroke_of
@@ -82,7 +82,7 @@ class Walk:
     builder: SheetBuilder
     paths: int = 0
     picture_area: float = 0.0  # [points^2]
-    clips: dict[bytes, shapely.Geometry] = field(default_factory=dict)
+    clips: dict[tuple[Affine2, bytes], Clip] = field(default_factory=dict)
     maps: dict[tuple[Affine2, Affine2], Affine2] = field(default_factory=dict)
 
     def read_page(self, page: "pypdfium2.PdfPage", where: Where) -> None:
@@ -148,15 +148,19 @@ class Walk:
             self.maps[key] = shown_from_here @ here_from_object
         return self.maps[key]
 
-    def clip_of(self, handle: Handle, where: Where) -> shapely.Geometry | None:
+    def clip_of(self, handle: Handle, where: Where) -> Clip | None:
         """Return the area that an object is cut to; None if it is not cut."""
-        clips = [[where.shown_from_here @ points for points, _ in subpaths] for subpaths in clips_of(handle)]
+        clips = clips_of(handle)
         if not clips:
             return None
-        key = b"|".join(points.tobytes() for rings in clips for points in (*rings, np.empty(0)))
+        parts = b"|".join(
+            points.tobytes() for path in clips for points in (*(p for p, _ in path), np.empty(0))
+        )
+        key = (where.shown_from_here, parts)
         if key not in self.clips:
-            areas = [area_of(rings) for rings in clips if rings]
-            self.clips[key] = shapely.intersection_all(areas) if areas else shapely.Polygon()
+            shown = [[where.shown_from_here @ points for points, _ in path] for path in clips]
+            areas = [area_of(rings) for rings in shown if rings]
+            self.clips[key] = Clip(shapely.intersection_all(areas) if areas else shapely.Polygon())
         return self.clips[key]
 
 
@@ -167,16 +171,16 @@ def parts_of(
     outlines: Sequence[Polyline],
     pen: Pen | None,
     fill: Color | None,
-    clip: shapely.Geometry | None,
+    clip: Clip | None,
     *,
     winding: bool,
 ) -> Iterator[Part]:
     """Divide a path into marks: areas that overlap by the winding rule, and what a clip leaves."""
-    if clip is not None and not contains(clip, np.vstack([outline.vertices for outline in outlines])):
+    if clip is not None and not clip.leaves_whole(np.vstack([outline.vertices for outline in outlines])):
         if fill is not None:
-            yield clipped_area(outlines, clip), None, fill
+            yield clipped_area(outlines, clip.area), None, fill
         if pen is not None:
-            yield clipped_lines(outlines, clip), pen, None
+            yield clipped_lines(outlines, clip.area), pen, None
     elif fill is not None and winding and len(outlines) > 1 and turn_alike(outlines):
         for outline in outlines:
             yield (outline,), pen, fill

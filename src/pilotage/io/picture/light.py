@@ -32,12 +32,15 @@ def flatten(colors: NDArray[np.float32], *, is_photo: bool) -> NDArray[np.float3
     radius = max(2, round(PEN * float(np.hypot(*colors.shape[:2]))))
     flat = np.empty_like(colors)
     for channel in range(3):
+        if channel and np.array_equal(colors[..., channel], colors[..., channel - 1]):  # a gray picture
+            flat[..., channel] = flat[..., channel - 1]
+            continue
         shade = gaussian_filter(colors[..., channel], SMOOTH) if is_photo else colors[..., channel]
         ground = grounds(shade, radius)
         if not is_photo:
             paper = max(float(np.median(ground)), LEAST_LIGHT)
             ground = np.where(ground < BLACK * paper, paper, ground)
-        flat[..., channel] = np.clip((shade + LEAST_LIGHT) / (ground + LEAST_LIGHT), 0.0, 1.0)
+        flat[..., channel] = np.minimum((shade + LEAST_LIGHT) / (ground + LEAST_LIGHT), 1.0)
     return flat
 
 

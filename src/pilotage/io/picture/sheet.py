@@ -78,8 +78,11 @@ def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
 
         larger = min(2.0, float(np.sqrt(MOST / (height * width))))
         size = (round(larger * width), round(larger * height))
-        channels = [Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC) for k in range(3)]
-        return width / size[0], np.clip(np.dstack([np.asarray(channel) for channel in channels]), 0.0, 1.0)
+        working = np.empty((size[1], size[0], 3), dtype=np.float32)
+        for k in range(3):
+            channel = Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC)
+            np.clip(np.asarray(channel), 0.0, 1.0, out=working[..., k])
+        return width / size[0], working
     step = int(np.sqrt(height * width / ENOUGH))
     if step < 2:
         return 1.0, colors

@@ -32,7 +32,11 @@ def depth_of(ink: Mask) -> NDArray[np.float32]:
     depth = np.zeros(ink.shape, dtype=np.float32)
     if rows.size:
         box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-        depth[box] = distance_transform_edt(np.pad(ink[box], 1))[1:-1, 1:-1]
+        padded = np.pad(ink[box], 1)
+        edge = distance_transform_edt(padded, return_distances=False, return_indices=True)
+        inked = np.nonzero(padded)  # most of a picture is paper: no distances are computed there
+        away = [nearest[inked] - own for nearest, own in zip(edge, inked, strict=True)]
+        depth[box][ink[box]] = np.sqrt((away[0] ** 2 + away[1] ** 2).astype(np.float64))
     return depth
 
 

@@ -146,12 +146,28 @@ def read_shape(item: Drawn) -> Iterator[Shape]:
     outline = (outline * item.page_from_element).reify()
     if len(outline) < 2:
         return
-    bounds = outline.bbox()
-    if bounds is None:
-        return
+    bounds = bounds_of(outline)
     if not all(abs(bound) <= FARTHEST for bound in bounds):  # not a number, too
         raise ValueError(f"<{local_name(item.element.tag)}> reaches farther than {FARTHEST:g}")
     yield Shape(item, outline, bounds)
+
+
+def bounds_of(outline: svgelements.Path) -> Bounds:
+    """Return left, top, right and bottom of an outline; a curve within its ends' box needs no search."""
+    boxes = [box_of(segment) for segment in outline]
+    lefts, tops, rights, bottoms = zip(*boxes, strict=True)
+    return min(lefts), min(tops), max(rights), max(bottoms)
+
+
+def box_of(segment: svgelements.PathSegment) -> Bounds:
+    """Return left, top, right and bottom of a part of an outline."""
+    if isinstance(segment, svgelements.QuadraticBezier | svgelements.CubicBezier):
+        x, y = ([point[axis] for point in segment] for axis in (0, 1))
+        ends = min(x[0], x[-1]), min(y[0], y[-1]), max(x[0], x[-1]), max(y[0], y[-1])
+        if holds(ends, (min(x), min(y), max(x), max(y))):
+            return ends
+    box: Bounds = segment.bbox()
+    return box
 
 
 def holds(outer: Bounds, inner: Bounds) -> bool:

@@ -43,14 +43,14 @@ def drop_outdoors(
     """
     if not space.outside.any():
         return regions
-    kept = regions
+    kept, is_first = regions, True
     while yards := [
         number
-        for number in find_yards(space, kept, gaping=solids_known, apart=kept is regions)
+        for number in find_yards(space, kept, gaping=solids_known, apart=is_first)
         if not ((solids_known or is_named(space, kept == number, labels)) and has_front(space, kept, number))
     ]:
         found = np.isin(kept, yards)
-        kept = np.where(found, -1, kept)
+        kept, is_first = np.where(found, -1, kept), False  # what lost its yard to the outside stays
         if not solids_known:
             break
         space = replace(space, outside=space.outside | found)  # what gapes at a yard is a yard, too
