@@ -100,6 +100,12 @@ def test_rooms_of_one_name_and_names_in_one_room_are_told():
     assert "'Lab' and 'Store'" in found["several-names"].text
 
 
+def test_the_number_of_a_room_beside_its_name_is_no_second_name():
+    numbered = (*NAMES[:1], Label("Lab", (15.0, 10.0)), Label("108", (16.0, 9.0)))
+
+    assert "several-names" not in kinds(replace(GOOD, labels=numbered))
+
+
 def test_a_drawing_without_words_says_how_to_name_rooms():
     assert "--label" in kinds(replace(GOOD, labels=()))["no-names"].advice
 

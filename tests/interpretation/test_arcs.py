@@ -52,6 +52,27 @@ def test_an_arc_is_found_at_the_end_of_its_leaf():
     assert arc.radius == pytest.approx(10.0, rel=0.05)
 
 
+@given(
+    hinge=st.tuples(coordinates, coordinates),
+    radius=st.floats(0.5, 20.0),
+    start=angles,
+    turn=st.sampled_from([-1.0, 1.0]),
+    chords=st.integers(4, 40),
+)
+def test_a_quadratic_curve_around_a_corner_is_the_quarter_circle_about_the_hinge(
+    hinge, radius, start, turn, chords
+):
+    first, last = radius * circle((0.0, 0.0), 1.0, start, turn * np.pi / 2.0, 1)
+    t = np.linspace(0.0, 1.0, chords + 1)[:, None]
+    curve = hinge + (1 - t) ** 2 * first + 2 * t * (1 - t) * (first + last) + t**2 * last
+
+    (arc,) = find_arcs(Polyline(curve))
+
+    assert arc.center == pytest.approx(hinge, abs=1e-6 * (1.0 + radius))
+    assert arc.radius == pytest.approx(radius, rel=1e-6)
+    assert arc.sweep == pytest.approx(np.pi / 2.0)
+
+
 def test_vertices_drawn_twice_do_not_matter():
     points = circle((1, 2), 3.0, 0.5, np.pi / 2.0, 8)
 

@@ -1,6 +1,7 @@
 """Small flats of two rooms, drawn as people and programs draw them: what is a wall, what a door?"""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -72,6 +73,20 @@ def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
         guessed.meanings[-1].reason,
     )
     assert Role.WALL is told.meanings[-1].role
+
+
+@pytest.mark.parametrize("name", ["axes_1", "Frame 1", "legend"])
+def test_a_name_that_all_marks_bear_says_nothing_of_any(name):
+    table = box(20, 20, 28, 26, pen=Pen(RED, 1.0), names=("chair",))
+    marks = tuple(replace(mark, names=(name, *mark.names)) for mark in (*WITH_GAP, table))
+
+    understood = interpret(Sheet(marks))
+
+    assert are_joined(marks)
+    assert (Role.FURNITURE, "its name is 'chair'") == (
+        understood.meanings[-1].role,
+        understood.meanings[-1].reason,
+    )
 
 
 def test_lines_of_one_name_are_joined_and_areas_are_no_names():

@@ -200,7 +200,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 tuple(cell.cell_id for cell in cells),
             )
     for cell in graph.cells:
-        words = cell.label.split(", ")
+        words = [word for word in cell.label.split(", ") if not word.isdecimal()]  # a room has a number, too
         if len(words) > 1:
             yield Finding(
                 "several-names",

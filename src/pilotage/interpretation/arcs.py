@@ -31,6 +31,9 @@ EVEN = 1.2
 SHARE = 0.25
 """A door's arc is at least this share of the line that draws it; a rounded corner is less."""
 
+UPRIGHT = 0.1
+"""A parabola stands for a quarter circle if its legs are as long as each other and upright, to this share."""
+
 
 @dataclass(frozen=True, slots=True)
 class Arc:
@@ -78,6 +81,8 @@ def bows(steps: Array, lengths: Array) -> Iterator[tuple[int, int]]:
 
 def fitted(points: Array) -> Arc | None:
     """Fit a circle to vertices (n, 2); None if they do not lie on a door's arc."""
+    if (parabola := quarter(points)) is not None:
+        return parabola
     center, radius = fit_circle(points)
     spokes = points - center
     strays = np.abs(np.hypot(*spokes.T) - radius)
@@ -88,3 +93,20 @@ def fitted(points: Array) -> Arc | None:
     if not SWEEP[0] <= sweep <= SWEEP[1]:
         return None
     return Arc(center, radius, points[[0, -1]], points, sweep)
+
+
+def quarter(points: Array) -> Arc | None:
+    """Take a quadratic curve whose control point is a corner for the quarter circle that it stands for.
+
+    `points` (n, 2) are equal steps of its parameter. A circle through them would have its center elsewhere.
+    """
+    bends = np.diff(points, n=2, axis=0)
+    first, last, count = points[0], points[-1], len(points) - 1
+    if np.abs(bends - bends.mean(axis=0)).max() > ROUNDNESS * np.hypot(*bends.mean(axis=0)):
+        return None
+    corner = (first + last) / 2.0 - bends.mean(axis=0) * count**2 / 4.0
+    legs = np.stack([first - corner, last - corner])
+    lengths = np.hypot(*legs.T)
+    if lengths.min() < (1.0 - UPRIGHT) * lengths.max() or abs(legs[0] @ legs[1]) > UPRIGHT * lengths.prod():
+        return None
+    return Arc(first + last - corner, float(lengths.mean()), points[[0, -1]], points, np.pi / 2.0)

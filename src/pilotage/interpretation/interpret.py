@@ -64,10 +64,11 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     glyphs = find_glyphs([sheet.marks[number] for number in unsaid], diagonal)
     letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
+    called = names_inside(sheet, drawn)
     guessed = {
         mark.number: role
         for mark in visible
-        if (role := closing.get(mark.number) or guessed_role(sheet.marks[mark.number].names))
+        if (role := closing.get(mark.number) or guessed_role(called[mark.number]))
     }
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     doors = find_doors(sheet, visible, diagonal)
@@ -126,6 +127,17 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         ),
     )
     return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
+
+
+def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
+    """List the names of marks but for those that all of them bear: such a name is the drawing's own.
+
+    Programs name what holds a whole drawing "Frame 1" or "axes_1".
+    """
+    names = {number: sheet.marks[number].names for number in drawn}
+    common = set.intersection(*map(set, names.values())) if names else set()
+    common = {name for name in common if (guessed_role([name]) or NOT_NAMED)[0] is not Role.WALL}
+    return {number: [name for name in own if name not in common] for number, own in names.items()}
 
 
 def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:

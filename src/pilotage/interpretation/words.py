@@ -20,17 +20,21 @@ ALIKE = 1.35
 
 UNITS = frozenset({
     "mm", "cm", "m", "ft", "feet", "in", "inch", "inches", "sq", "sqm", "sqft", "sf", "qm", "mq", "m²", "ft²",
-    "㎡", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface",
+    "㎡", "坪", "평", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface",
+    "°c", "°f", "kw", "kwh", "lx", "ppm", "hpa",
 })  # fmt: skip
-"""Words of areas and lengths; with numbers and nothing else they are no name."""
+"""Words of areas and lengths, and of what dashboards show; with numbers and nothing else they are no name."""
+
+AROUND = frozenset({"a", "s", "h", "ch", "lh", "rh", "ca", "approx", "total"})
+"""What may stand by a measure and is none itself: A = 13.3 m², h 2.50 m, ca. 12 qm."""
 
 SIGNS = (
-    "'\"\N{RIGHT SINGLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}\N{PRIME}\N{DOUBLE PRIME}"
+    "%'\"\N{RIGHT SINGLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}\N{PRIME}\N{DOUBLE PRIME}"
     "\N{MULTIPLICATION SIGN}"
 )
-"""Feet, inches, and what stands between two sides."""
+"""Feet, inches, shares, and what stands between two sides."""
 
-TOKEN = re.compile(r"[^\W\d_]+|[\d²³]+|\S")
+TOKEN = re.compile(r"°?[^\W\d_]+|[\d²³]+|\S")
 
 MARK_OF_NOTHING = re.compile(r"\W*")
 """Words without a letter or a digit."""
@@ -50,9 +54,11 @@ def is_measure(words: str) -> bool:
 
     >>> [is_measure(words) for words in ("11.2 m²", "3.50 x 4.20", "12'-0\" x 10'-6\"", "Room 7", "201")]
     [True, True, True, False, False]
+    >>> [is_measure(words) for words in ("A: 13.30 m²", "21.5 °C", "15.96 m² (4.83 坪)", "A 12", "C 3")]
+    [True, True, True, False, False]
     """
     tokens = TOKEN.findall(words.casefold())
-    letters = [token for token in tokens if token[0].isalpha()]
+    letters = [token for token in tokens if token.lstrip("°")[:1].isalpha() and token not in AROUND]
     has_number = any(token[0].isdecimal() for token in tokens)
     has_unit = bool(letters) or any(token in SIGNS for token in tokens)
     return has_number and has_unit and all(word in UNITS for word in letters)
