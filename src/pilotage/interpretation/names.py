@@ -53,7 +53,7 @@ VOCABULARY: Mapping[Role, str] = {
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
-    " legend north",
+    " legend north paths route routes fluchtweg fluchtwege rettungsweg rettungswege",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 
