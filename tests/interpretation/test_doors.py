@@ -158,3 +158,25 @@ def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():
     road = stroke((900, 900), (1000, 1000))
 
     assert interpret(Sheet((*faces, road))).sketch.solids
+
+
+def test_an_outline_with_a_notch_has_a_door():
+    swing = arc((50, 30), 12, 0, 90).outlines[0].vertices
+    outline = stroke((50, 0), (50, 30), *swing, (50, 80))
+
+    assert are_joined((OUTSIDE, outline))
+
+
+def test_a_rounded_corner_is_no_door():
+    corner = arc((62, 42), 12, 180, 270).outlines[0].vertices
+    outline = stroke((50, 80), *corner, (100, 30))
+
+    assert Role.DOOR not in roles((OUTSIDE, outline))
+
+
+def test_doors_of_a_large_building_with_thick_walls_are_no_slips_of_the_pen():
+    walls = [box(*corners, fill=BLACK) for corners in (*OUTER, *INNER)]
+    hall = [(100, 0, 1600, 4), (100, 76, 1600, 80), (1596, 0, 1600, 80)]
+    wing = [box(*corners, fill=BLACK) for corners in hall]
+
+    assert {"bath", "hall"} in ends_of_gateways((*walls, *wing))

@@ -9,6 +9,7 @@ import shapely
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
+from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
@@ -16,7 +17,7 @@ from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.stairs import find_stairs
-from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
+from pilotage.interpretation.walls import Walls, find_walls, rings_of
 from pilotage.interpretation.words import find_names
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
@@ -78,6 +79,15 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         sheet,
         {number: role for number, (role, _) in guessed.items()},
         doors,
+        floors=find_floors(
+            [
+                sheet.marks[number]
+                for number in unsaid
+                if number not in letters
+                and (guessed_role(sheet.marks[number].names) or NOT_NAMED)[0] not in NO_WALLS
+            ],
+            paper.ground,
+        ),
         ground=paper.ground,
         diagonal=diagonal,
     )
