@@ -29,6 +29,9 @@ GRAIN = 0.0005
 NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
 
+NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""Arcs of these are of cupboards and trees."""
+
 CLOSING = (Role.WALL, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
 
@@ -71,8 +74,9 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         if (role := closing.get(mark.number) or guessed_role(sheet.marks[mark.number].names))
     }
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
-    doors = find_doors(sheet, visible, diagonal)
-    left = without_doors(visible, doors)
+    built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
+    doors = find_doors(sheet, built, diagonal)
+    left = without_doors(built, doors)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     walls = find_walls(
         seen,
@@ -127,7 +131,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             set(paper.sheets),
             letters,
             named,
-            visible,
+            built,
             left,
             doors,
             walls,

@@ -1,7 +1,7 @@
 """Choose what is a wall: solids and lines, or lines alone."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -42,6 +42,12 @@ USUAL_DOOR = 0.03
 NEARLY_ALL = 0.9
 """Black lines alone are the walls if they enclose this share of what all lines enclose."""
 
+HOLDING = 0.75
+"""What is named wall is all walls if so many of the doors stand in it, as a share."""
+
+AT_DOOR = 0.25
+"""A wall is beside a door if it is this near to its hinge, as a share of its width."""
+
 COLORFUL = 0.5
 """A line is in a color if its channels differ by this much; ink in a photo is paler."""
 
@@ -74,6 +80,7 @@ class Drawn:
     marginal: shapely.Geometry  # lines in a color, and dashed ones
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows
+    named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
     floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
     diagonal: float
@@ -107,6 +114,12 @@ class Drawn:
     def widest(self) -> float:
         """Width of the widest doors."""
         return WIDEST * (self.door_width or USUAL_DOOR * self.diagonal)
+
+    def share_of_doors(self, walls: shapely.Geometry) -> float:
+        """Tell how many of the doors have a wall at their hinge, as a share; none if there are no doors."""
+        hinges = shapely.points([door.hinge for door in self.doors])
+        reach = np.array([AT_DOOR * door.width for door in self.doors])
+        return float((shapely.distance(hinges, walls) <= reach).mean()) if self.doors else 0.0
 
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
@@ -142,9 +155,26 @@ def find_walls(
     panels = shapely.union_all([mark.area for mark, color in fills if color in thin])
     panes = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
     glass = shapely.union_all([shape for mark in panes for shape in (mark.line, mark.area)])
-    drawn = Drawn(solid, frozenset(colors), *by_style(seen, sheet), panels, glass, floors, doors, diagonal)
-    ways = (walls for way in (painted_walls, faced_walls, black_lines) if (walls := way(drawn)) is not None)
+    called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
+    called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
+    drawn = Drawn(
+        solid, frozenset(colors), *by_style(seen, sheet), panels, glass, called, floors, doors, diagonal
+    )
+    ways = (
+        walls
+        for way in (named_walls, painted_walls, faced_walls, black_lines)
+        if (walls := way(drawn)) is not None
+    )
     return next(ways, Walls(solid, None, drawn.colors))
+
+
+def named_walls(drawn: Drawn) -> Walls | None:
+    """Fill what lies between two faces that are named walls; None if few doors stand in them."""
+    thickness = greatest_thickness(drawn.named, drawn.door_width, drawn.diagonal)
+    if drawn.named.is_empty or thickness is None:
+        return None
+    filled = filled_between(drawn.named, drawn.solid, thickness)
+    return painted_walls(replace(drawn, solid=filled)) if drawn.share_of_doors(filled) >= HOLDING else None
 
 
 def painted_walls(drawn: Drawn) -> Walls | None:
