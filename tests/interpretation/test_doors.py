@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
-from pilotage.interpretation import Pen, Role, Sheet, interpret
+from pilotage.interpretation import Mark, Pen, Role, Sheet, interpret
 from pilotage.interpretation.paint import NOTHING
 from pilotage.interpretation.windows import windows
 
@@ -158,3 +158,54 @@ def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():
     road = stroke((900, 900), (1000, 1000))
 
     assert interpret(Sheet((*faces, road))).sketch.solids
+
+
+def test_an_outline_with_a_notch_has_a_door():
+    swing = arc((50, 30), 12, 0, 90).outlines[0].vertices
+    outline = stroke((50, 0), (50, 30), *swing, (50, 80))
+
+    assert are_joined((OUTSIDE, outline))
+
+
+def test_a_rounded_corner_is_no_door():
+    corner = arc((62, 42), 12, 180, 270).outlines[0].vertices
+    outline = stroke((50, 80), *corner, (100, 30))
+
+    assert Role.DOOR not in roles((OUTSIDE, outline))
+
+
+def test_doors_of_a_large_building_with_thick_walls_are_no_slips_of_the_pen():
+    walls = [box(*corners, fill=BLACK) for corners in (*OUTER, *INNER)]
+    hall = [(100, 0, 1600, 4), (100, 76, 1600, 80), (1596, 0, 1600, 80)]
+    wing = [box(*corners, fill=BLACK) for corners in hall]
+
+    assert {"bath", "hall"} in ends_of_gateways((*walls, *wing))
+
+
+FACES = [(0, 0, 100, 80), (3, 3, 47, 77), (53, 3, 97, 77)]
+SHELF = [stroke((6, y), (44, y)) for y in (12, 16, 20)]
+
+
+def named_flat(*names):
+    """Two rooms between double lines, a door with its arc, and a shelf of lines as far apart as a wall's."""
+    faces = [box(*corners, pen=PEN, names=names) for corners in FACES]
+    door = (stroke((50, 30), (62, 30)), arc((50, 30), 12, 0, 90))
+    return (*faces, *SHELF, *door)
+
+
+def test_where_walls_are_named_and_doors_stand_in_them_there_are_no_others():
+    assert roles(named_flat("A-WALL"))[3:6] == [Role.FURNITURE] * 3
+    assert are_joined(named_flat("A-WALL"))
+
+
+def test_where_no_walls_are_named_lines_beside_each_other_are_walls():
+    assert roles(named_flat())[3:6] == [Role.WALL] * 3
+
+
+def test_arcs_on_a_layer_of_furniture_are_no_doors():
+    arced = arc((50, 30), 12, 0, 90)
+    leaf = stroke((50, 30), (62, 30))
+    cupboard = [Mark(mark.outlines, mark.pen, names=("Storage Fittings",)) for mark in (leaf, arced)]
+
+    assert roles((OUTSIDE, WALL, *cupboard)) == [Role.WALL, Role.WALL, Role.FURNITURE, Role.FURNITURE]
+    assert not are_joined((OUTSIDE, WALL, *cupboard))

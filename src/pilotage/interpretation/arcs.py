@@ -29,7 +29,7 @@ EVEN = 1.2
 """The chords of an even arc differ in length by no more than this factor."""
 
 SHARE = 0.25
-"""A door's arc is at least this share of the line that draws it; a rounded corner is less."""
+"""A door's arc is at least this share of the line that draws it; a notch or a rounded corner is less."""
 
 UPRIGHT = 0.1
 """A parabola stands for a quarter circle if its legs are as long as each other and upright, to this share."""
@@ -44,6 +44,7 @@ class Arc:
     ends: Array  # (2, 2)
     vertices: Array  # (n, 2) of the line that draws it, its ends first and last
     sweep: float  # [rad] between its ends
+    is_part: bool = False  # of a much longer line: a notch for a door in an outline, or a rounded corner
 
 
 def find_arcs(line: Polyline) -> Iterator[Arc]:
@@ -58,9 +59,9 @@ def find_arcs(line: Polyline) -> Iterator[Arc]:
         return
     for first, last in bows(steps, lengths):
         chords = lengths[first : last + 1]
-        arc = fitted(points[first : last + 2])
-        is_long = chords.sum() >= SHARE * lengths.sum()
-        if arc is not None and is_long and (arc.sweep >= AJAR or chords.max() <= EVEN * chords.min()):
+        is_part = bool(chords.sum() < SHARE * lengths.sum())
+        arc = fitted(points[first : last + 2], is_part=is_part)
+        if arc is not None and (arc.sweep >= AJAR or chords.max() <= EVEN * chords.min()):
             yield arc
 
 
@@ -79,9 +80,9 @@ def bows(steps: Array, lengths: Array) -> Iterator[tuple[int, int]]:
             first = k + 1 if is_end else k
 
 
-def fitted(points: Array) -> Arc | None:
+def fitted(points: Array, *, is_part: bool) -> Arc | None:
     """Fit a circle to vertices (n, 2); None if they do not lie on a door's arc."""
-    if (parabola := quarter(points)) is not None:
+    if (parabola := quarter(points, is_part=is_part)) is not None:
         return parabola
     center, radius = fit_circle(points)
     spokes = points - center
@@ -92,10 +93,10 @@ def fitted(points: Array) -> Arc | None:
     sweep = float(abs(angles[-1] - angles[0]))
     if not SWEEP[0] <= sweep <= SWEEP[1]:
         return None
-    return Arc(center, radius, points[[0, -1]], points, sweep)
+    return Arc(center, radius, points[[0, -1]], points, sweep, is_part)
 
 
-def quarter(points: Array) -> Arc | None:
+def quarter(points: Array, *, is_part: bool) -> Arc | None:
     """Take a quadratic curve whose control point is a corner for the quarter circle that it stands for.
 
     `points` (n, 2) are equal steps of its parameter. A circle through them would have its center elsewhere.
@@ -109,4 +110,4 @@ def quarter(points: Array) -> Arc | None:
     lengths = np.hypot(*legs.T)
     if lengths.min() < (1.0 - UPRIGHT) * lengths.max() or abs(legs[0] @ legs[1]) > UPRIGHT * lengths.prod():
         return None
-    return Arc(first + last - corner, float(lengths.mean()), points[[0, -1]], points, np.pi / 2.0)
+    return Arc(first + last - corner, float(lengths.mean()), points[[0, -1]], points, np.pi / 2.0, is_part)

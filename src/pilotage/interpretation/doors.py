@@ -80,6 +80,7 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     arcs = [(arc, place) for arc, place in arcs if radii[0] <= arc.radius <= radii[1]]
     segments = segments_of(seen)
     judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
+    judged = [one for one in judged if not one[0].is_part or is_notch(one[0], *one[2:])]
     ajar = [(arc, judge(arc, segments)[1]) for arc in find_leaves(sheet, seen, segments, radii)]
     ajar = [(arc, walls) for arc, walls in ajar if walls[1] == 2.0]
     leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
@@ -153,6 +154,11 @@ def judge(arc: Arc, segments: Segments) -> tuple[NDArray[np.bool_], Array]:
             )
             walls[k] += len(near) > 0
     return leaves, walls
+
+
+def is_notch(arc: Arc, leaves: NDArray[np.bool_], walls: Array) -> bool:
+    """Tell whether an arc within an outline is a door: the outline returns along a leaf to where it left."""
+    return bool(arc.sweep >= AJAR and leaves.sum() == 1 and walls[np.argmin(leaves)] == 2.0)
 
 
 def has_leaf(arc: Arc, end: Array, segments: Segments) -> bool:

@@ -9,6 +9,7 @@ import shapely
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import find_doors, without_doors
+from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
@@ -16,7 +17,7 @@ from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.stairs import find_stairs
-from pilotage.interpretation.walls import Walls, find_walls, is_floor, rings_of
+from pilotage.interpretation.walls import Walls, find_walls, rings_of
 from pilotage.interpretation.words import find_names
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
@@ -27,6 +28,9 @@ GRAIN = 0.0005
 
 NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
+
+NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""Arcs of these are of cupboards and trees."""
 
 CLOSING = (Role.WALL, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
@@ -71,14 +75,24 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         if (role := closing.get(mark.number) or guessed_role(called[mark.number]))
     }
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
-    doors = find_doors(sheet, visible, diagonal)
-    left = without_doors(visible, doors)
+    built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
+    doors = find_doors(sheet, built, diagonal)
+    left = without_doors(built, doors)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     walls = find_walls(
         seen,
         sheet,
         {number: role for number, (role, _) in guessed.items()},
         doors,
+        floors=find_floors(
+            [
+                sheet.marks[number]
+                for number in unsaid
+                if number not in letters
+                and (guessed_role(sheet.marks[number].names) or NOT_NAMED)[0] not in NO_WALLS
+            ],
+            paper.ground,
+        ),
         ground=paper.ground,
         diagonal=diagonal,
     )
@@ -118,7 +132,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             set(paper.sheets),
             letters,
             named,
-            visible,
+            built,
             left,
             doors,
             walls,

@@ -47,13 +47,14 @@ VOCABULARY: Mapping[Role, str] = {
     " escaleras escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
     " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture"
-    " fixtures sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb kitchenware"
-    " plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель",
+    " fixtures fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
+    " kitchenware plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto",
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
-    " legend north",
+    " legend north paths route routes fluchtweg fluchtwege rettungsweg rettungswege"
+    " landscape landscaping contouring vegetation planting",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 

@@ -1,13 +1,14 @@
 """Choose what is a wall: solids and lines, or lines alone."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import shapely
 
 from pilotage.interpretation.doors import Door
+from pilotage.interpretation.floors import floor_edges
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import find_partitions
 from pilotage.interpretation.sheet import Color, Role, Sheet
@@ -18,7 +19,6 @@ from pilotage.interpretation.solids import (
     extent,
     filled_between,
     greatest_thickness,
-    lightness,
     painted_thickness,
     without_crumbs,
 )
@@ -42,6 +42,12 @@ USUAL_DOOR = 0.03
 NEARLY_ALL = 0.9
 """Black lines alone are the walls if they enclose this share of what all lines enclose."""
 
+HOLDING = 0.75
+"""What is named wall is all walls if so many of the doors stand in it, as a share."""
+
+AT_DOOR = 0.25
+"""A wall is beside a door if it is this near to its hinge, as a share of its width."""
+
 COLORFUL = 0.5
 """A line is in a color if its channels differ by this much; ink in a photo is paler."""
 
@@ -50,10 +56,6 @@ LONG = 0.15
 
 EDGE = 0.0005
 """Lines that are nearer than this share of the drawing's diagonal are one."""
-
-PALE = 0.4
-"""A fill that differs less than this from the ground in lightness is a floor if it has no line around it."""
-
 
 SLIVER = 0.21
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
@@ -78,6 +80,8 @@ class Drawn:
     marginal: shapely.Geometry  # lines in a color, and dashed ones, likewise
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows
+    named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
+    floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
     diagonal: float
 
@@ -106,6 +110,24 @@ class Drawn:
         gaps = [usual * self.diagonal / 2.0**halved for halved in range(HALVED + 1)]
         return next((gap for gap in gaps[:-1] if enclosed(self.solid, self.lines, gap) > 0.0), gaps[-1])
 
+    @property
+    def widest(self) -> float:
+        """Width of the widest doors."""
+        return WIDEST * (self.door_width or USUAL_DOOR * self.diagonal)
+
+    def share_of_doors(self, walls: shapely.Geometry) -> float:
+        """Tell how many of the doors have a wall at their hinge, as a share; none if there are no doors."""
+        hinges = shapely.points([door.hinge for door in self.doors])
+        reach = np.array([AT_DOOR * door.width for door in self.doors])
+        return float((shapely.distance(hinges, walls) <= reach).mean()) if self.doors else 0.0
+
+    def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
+        """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
+        edges = floor_edges(self.floors, walls, thickness, self.widest)
+        lines = shapely.union(self.lines, edges)
+        parting = find_partitions(lines, walls, self.doors, self.door_width or gap)
+        return shapely.union(parting, edges)
+
 
 def find_walls(
     seen: Sequence[Seen],
@@ -113,6 +135,7 @@ def find_walls(
     named: Mapping[int, Role],
     doors: Sequence[Door],
     *,
+    floors: shapely.Geometry = NOTHING,
     ground: Color,
     diagonal: float,
 ) -> Walls:
@@ -132,9 +155,26 @@ def find_walls(
     panels = shapely.union_all([mark.area for mark, color in fills if color in thin])
     panes = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
     glass = shapely.union_all([shape for mark in panes for shape in (mark.line, mark.area)])
-    drawn = Drawn(solid, frozenset(colors), *by_style(seen, sheet), panels, glass, doors, diagonal)
-    ways = (walls for way in (painted_walls, faced_walls, black_lines) if (walls := way(drawn)) is not None)
+    called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
+    called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
+    drawn = Drawn(
+        solid, frozenset(colors), *by_style(seen, sheet), panels, glass, called, floors, doors, diagonal
+    )
+    ways = (
+        walls
+        for way in (named_walls, painted_walls, faced_walls, black_lines)
+        if (walls := way(drawn)) is not None
+    )
     return next(ways, Walls(solid, None, drawn.colors))
+
+
+def named_walls(drawn: Drawn) -> Walls | None:
+    """Fill what lies between two faces that are named walls; None if few doors stand in them."""
+    thickness = greatest_thickness(drawn.named, drawn.door_width, drawn.diagonal)
+    if drawn.named.is_empty or thickness is None:
+        return None
+    filled = filled_between(drawn.named, drawn.solid, thickness)
+    return painted_walls(replace(drawn, solid=filled)) if drawn.share_of_doors(filled) >= HOLDING else None
 
 
 def painted_walls(drawn: Drawn) -> Walls | None:
@@ -145,15 +185,15 @@ def painted_walls(drawn: Drawn) -> Walls | None:
     thickness = painted_thickness(drawn.solid)
     body = without_slivers(drawn.solid, SLIVER * thickness)
     filled = shapely.union(filled_between(drawn.lines, drawn.solid, thickness), drawn.solid)
-    widest = WIDEST * (drawn.door_width or USUAL_DOOR * drawn.diagonal)
     thick = shapely.difference(body, drawn.panels)
-    glazed, shut = windows(shapely.difference(filled, drawn.openings), thick, drawn.glass, thickness, widest)
+    glazed, shut = windows(
+        shapely.difference(filled, drawn.openings), thick, drawn.glass, thickness, drawn.widest
+    )
     open_ = shapely.union_all([drawn.openings, shapely.intersection(shut, drawn.panels)])
     walls = shapely.union(glazed, shapely.difference(body, open_))
     if not are_walls(walls, drawn.lines, gap):
         return None
-    thin = find_partitions(drawn.lines, walls, drawn.doors, drawn.door_width or gap)
-    return Walls(walls, thin, drawn.colors)
+    return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)
 
 
 def faced_walls(drawn: Drawn) -> Walls | None:
@@ -166,8 +206,7 @@ def faced_walls(drawn: Drawn) -> Walls | None:
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
     if not are_walls(walls, drawn.lines, gap):
         return None
-    thin = find_partitions(drawn.lines, walls, drawn.doors, drawn.door_width or gap)
-    return Walls(walls, thin, drawn.colors)
+    return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)
 
 
 def black_lines(drawn: Drawn) -> Walls | None:
@@ -200,12 +239,7 @@ def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shap
     return shapely.multilinestrings(black), shapely.multilinestrings(other)
 
 
-def is_floor(color: Color, ground: Color) -> bool:
-    """Tell whether a fill without a line is the color of a floor."""
-    return abs(lightness(color) - lightness(ground)) < PALE
-
-
 def rings_of(solid: shapely.Geometry) -> list[shapely.LinearRing]:
-    """List the outlines of solids, holes too."""
+    """List the outlines of solids, and holes the other way round."""
     parts = [part for part in parts_of(solid) if part.geom_type == "Polygon"] if solid is not NOTHING else []
-    return [ring for part in parts for ring in (part.exterior, *part.interiors)]
+    return [ring for part in shapely.orient_polygons(parts) for ring in (part.exterior, *part.interiors)]

@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.errors import PilotageError
-from pilotage.geometry import Array, Polyline, segments_of
+from pilotage.geometry import Array, Polyline, segments_of, signed_area
 from pilotage.maps.cells.tessellation import Tessellation, tessellate
 from pilotage.maps.schematic import SchematicMap, diameter_of
 from pilotage.shape.simplify import Simplification, simplify_all
@@ -74,7 +74,13 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
         raise NotEnclosedError(NOTHING)
     strokes = significant(sketch.strokes, BLOB * diameter)
     walls = simplify_all(strokes, Simplification(settings.detail * diameter))
-    found = within_contours(walls) if sketch.contours else within_strokes(walls, diameter, settings)
+    found = (
+        within_contours(walls)
+        if sketch.contours
+        else within_strokes(
+            walls, diameter, replace(settings, gap=min(settings.gap, thickness_of(sketch.solids) / diameter))
+        )
+    )
     if sketch.solids:
         found = replace(found, inside=found.inside & ~within_solids(found.tessellation, sketch.solids))
     if not found.inside.any():
@@ -114,6 +120,15 @@ def within_solids(tessellation: Tessellation, solids: Sequence[Polyline]) -> NDA
     points = shapely.point_on_surface(tessellation.pieces)
     held, _ = shapely.STRtree(rings).query(points, predicate="within")
     return np.asarray(np.bincount(held, minlength=len(points)) % 2 == 1)
+
+
+def thickness_of(solids: Sequence[Polyline]) -> float:
+    """Measure the mean thickness of walls by their rings; infinite if there is none.
+
+    A door is wider, and a slip of the pen between thick walls narrower, however large the building is.
+    """
+    length = sum(ring.length for ring in solids) / 2.0
+    return abs(sum(signed_area(ring.vertices) for ring in solids)) / length if length > 0.0 else np.inf
 
 
 def within_strokes(
