@@ -36,7 +36,6 @@ NAMES = (
     "registration",
     "odometry",
     "segmentation",
-    "surfaces",
     "cells",
     "plans",
     "plan_drives",

@@ -1,43 +1,30 @@
 """The beam model against its definition, computed slowly."""
 
-import itertools
 import math
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
 from buildings import coarse, flat, scan_at
-from pilotage.geometry import Polyline, Pose2
+from pilotage.geometry import Pose2
 from pilotage.kernels.visibility import LOG_STEP
-from pilotage.localization import SensorModel, SensorSettings, observe
-from pilotage.localization.sensor_model import (
-    CLASS_WIDTH,
-    CLASSES,
-    FIRST_CLASS,
-    SURFACES,
-    null_density,
-    surface_lengths,
-)
+from pilotage.localization import SensorModel, SensorSettings
+from pilotage.localization.sensor_model import CLASS_WIDTH, CLASSES, FIRST_CLASS, null_density, thin_scan
 from pilotage.maps import build_atlas
-from pilotage.perception import LaserScan, PerceptionSettings, perceive
+from pilotage.perception import LaserScan
 
 SETTINGS = SensorSettings()
 MODEL = SensorModel(build_atlas(flat(), coarse(200, 240)), SETTINGS)
 
 
-def plain_ratio(error, log_range, surface):
+def plain_ratio(error, log_range):
     """Add the four parts of the mixture at e = log(predicted / measured), over the null model."""
-    s, share = SETTINGS, surface / (SURFACES - 1)
-    z_hit, z_short = (
-        small + share * (large - small)
-        for small, large in ((s.z_hit_small, s.z_hit), (s.z_short_small, s.z_short))
-    )
-    hit = z_hit * math.exp(-0.5 * (error / s.sigma_hit) ** 2) / (s.sigma_hit * math.sqrt(2.0 * math.pi))
+    s = SETTINGS
+    hit = s.z_hit * math.exp(-0.5 * (error / s.sigma_hit) ** 2) / (s.sigma_hit * math.sqrt(2.0 * math.pi))
     if error > 0.0:
-        exponential = z_short * s.lambda_short * math.exp(-s.lambda_short * error)
+        exponential = s.z_short * s.lambda_short * math.exp(-s.lambda_short * error)
     else:
         exponential = s.z_beyond * s.lambda_beyond * math.exp(s.lambda_beyond * error)
     normal = math.exp(-0.5 * ((log_range - 1.0) / 0.85) ** 2) / (0.85 * math.sqrt(2.0 * math.pi))
@@ -45,47 +32,13 @@ def plain_ratio(error, log_range, surface):
     return math.log((hit + exponential) / null + s.z_rand), hit / (hit + exponential + s.z_rand * null)
 
 
-@given(st.integers(-400, 400), st.integers(0, CLASSES - 1), st.integers(0, SURFACES - 1))
-def test_the_tables_hold_the_mixture(step, number, surface):
+@given(st.integers(-400, 400), st.integers(0, CLASSES - 1))
+def test_the_tables_hold_the_mixture(step, number):
     middle = (number + FIRST_CLASS + 0.5) * CLASS_WIDTH
-    log_ratio, share = plain_ratio(step * LOG_STEP, middle, surface)
-    row = surface * CLASSES + number
+    log_ratio, share = plain_ratio(step * LOG_STEP, middle)
 
-    assert math.isclose(log_ratio, MODEL.log_ratios[row, step + 400], abs_tol=1e-4)
-    assert math.isclose(share, MODEL.hit_shares[row, step + 400], abs_tol=1e-4)
-
-
-def plain_length(point, surfaces):
-    """Measure the longest segment near a point, segment by segment."""
-    near = 0.08 + 0.03 * math.hypot(*point)
-    lengths = [
-        math.dist(*ends)
-        for surface in surfaces
-        for ends in itertools.pairwise(surface.ring)
-        if shapely.distance(shapely.linestrings([ends]), shapely.points([point]))[0] < near
-    ]
-    return max(lengths, default=0.0)
-
-
-@given(st.integers(0, 2**32 - 1))
-def test_a_reading_lies_on_the_longest_surface_near_it(seed):
-    rng = np.random.default_rng(seed)
-    surfaces = [
-        Polyline(rng.uniform(-2.0, 2.0, (4, 2)), closed=bool(rng.integers(2)))
-        for _ in range(rng.integers(0, 4))
-    ]
-    points = rng.uniform(-2.0, 2.0, (9, 2))
-
-    plain = [plain_length(point, surfaces) for point in points]
-    np.testing.assert_allclose(surface_lengths(points, surfaces), plain, atol=1e-9)
-
-
-def test_a_long_wall_that_is_hit_says_more_than_a_small_surface():
-    table = MODEL.log_ratios.reshape(SURFACES, CLASSES, -1)
-    middle = table.shape[2] // 2
-
-    assert (np.diff(table[:, :, middle], axis=0) > 0.0).all()  # where it is drawn
-    assert (np.diff(table[:, :, middle + 40], axis=0) < 0.0).all()  # in front of what is drawn
+    assert math.isclose(log_ratio, MODEL.log_ratios[number, step + 400], abs_tol=1e-4)
+    assert math.isclose(share, MODEL.hit_shares[number, step + 400], abs_tol=1e-4)
 
 
 def test_the_null_model_is_a_density():
@@ -100,10 +53,6 @@ def test_no_reading_costs_more_than_chance():
     assert 0.0 <= MODEL.hit_shares.min() <= MODEL.hit_shares.max() <= 1.0
 
 
-def thinned(scan):
-    return observe(scan, perceive(scan, PerceptionSettings()), Pose2.identity()).scan
-
-
 def states_at(*poses):
     return np.array([[pose.x, pose.y, pose.theta, 0.0, 0.0, 0.0] for pose in poses]).T
 
@@ -111,7 +60,7 @@ def states_at(*poses):
 def test_the_true_pose_explains_a_scan_better_than_others_do():
     poses = [Pose2(1.5, 1.5, 0.5), Pose2(1.5, 1.5, 2.5), Pose2(8.5, 5.0, 0.5), Pose2(4.0, 1.5, 0.5)]
     for true in poses:
-        scan = thinned(scan_at(true))
+        scan = thin_scan(scan_at(true))
         ratios = MODEL.log_ratio(states_at(*poses), scan)
 
         assert true is poses[int(np.argmax(ratios))]
@@ -119,7 +68,7 @@ def test_the_true_pose_explains_a_scan_better_than_others_do():
 
 
 def test_a_state_off_the_drawing_gets_the_least_ratio():
-    scan = thinned(scan_at(Pose2(1.5, 1.5, 0.5)))
+    scan = thin_scan(scan_at(Pose2(1.5, 1.5, 0.5)))
     (ratio,) = MODEL.log_ratio(states_at(Pose2(1e9, 0.0, 0.0)), scan)
 
     assert math.isclose(ratio, 3.0 * math.log(SETTINGS.z_rand) + 1.0, rel_tol=1e-6)
@@ -128,7 +77,7 @@ def test_a_state_off_the_drawing_gets_the_least_ratio():
 
 @pytest.mark.parametrize("ranges", [np.full(181, np.nan), np.zeros(181), np.full(181, -np.inf)])
 def test_a_scan_without_a_reading_says_nothing(ranges):
-    scan = thinned(LaserScan(0.0, -1.5, 3.0 / 180, ranges))
+    scan = thin_scan(LaserScan(0.0, -1.5, 3.0 / 180, ranges))
 
     assert 0 == len(scan)
     assert [0.0] == MODEL.log_ratio(states_at(Pose2(1.5, 1.5, 0.5)), scan).tolist()
@@ -140,9 +89,9 @@ def test_an_impossible_range_counts_as_no_return(far):
     scan = scan_at(Pose2(1.5, 1.5, 0.5))
     ranges = np.array(scan.ranges)
     ranges[::2] = far
-    scan = thinned(LaserScan(0.0, scan.angle_min, scan.angle_increment, ranges))
+    thinned = thin_scan(LaserScan(0.0, scan.angle_min, scan.angle_increment, ranges))
 
-    assert np.isfinite(MODEL.log_ratio(states_at(Pose2(1.5, 1.5, 0.5)), scan)).all()
+    assert np.isfinite(MODEL.log_ratio(states_at(Pose2(1.5, 1.5, 0.5)), thinned)).all()
 
 
 @pytest.mark.parametrize(

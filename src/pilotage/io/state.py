@@ -33,7 +33,7 @@ from pilotage.shape import PartialShape
 from pilotage.shape.corners import Corners
 from pilotage.shape.partial import EndCause
 
-VERSION = 2
+VERSION = 1
 """Of the format; a state of another version is refused."""
 
 LARGEST = 1 << 27

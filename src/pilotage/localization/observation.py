@@ -25,4 +25,4 @@ class Observation:
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
     """Take what a drawing can be compared with from a scan and what is perceived in it (base frame)."""
     surfaces = simplify_all([shape.polyline for shape in shapes], SURFACES)
-    return Observation(thin_scan(scan, surfaces), find_corners(surfaces), motion, scan.stamp)
+    return Observation(thin_scan(scan), find_corners(surfaces), motion, scan.stamp)

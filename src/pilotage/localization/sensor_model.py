@@ -9,9 +9,6 @@ drawing has no true scale: a normal density for the drawn wall (hit), exponentia
 are too short (furniture, people) and too long (beyond: an open door, a wall that is not there), and the null
 model for readings that have nothing to do with the drawing (rand).
 
-What is seen of a wall is long and straight, and furniture is not. So the shares of hit and short readings
-depend on the length of the straight surface that a reading lies on (decision 0032).
-
 The null model says how ranges look in any building: log-normal, with the parameters below. A likelihood is
 always given as its ratio to the null model's. So it does not depend on the unit of range, a particle that
 explains nothing costs at most log(z_rand) a beam, and the evidence of a place says directly how much better
@@ -19,7 +16,6 @@ than "on no place of this drawing" it is.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage import kernels
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array
 from pilotage.maps import Atlas
 from pilotage.perception import LaserScan
 
@@ -43,12 +39,6 @@ WIDEST = 12.0
 CLASS_WIDTH, CLASSES, FIRST_CLASS = 0.2, 40, -16
 """Ranges are grouped by their logarithm for the table of ratios."""
 
-SURFACE_LENGTHS = np.array([0.5, 1.0, 2.0])
-"""[m] Surfaces are told apart by these lengths: shares go in equal steps from the shortest to the longest."""
-SURFACES = len(SURFACE_LENGTHS) + 1
-SURFACE_TOLERANCE, SURFACE_TOLERANCE_SHARE = 0.08, 0.03
-"""[m, share of the range] of a reading from the simplified surface that it lies on."""
-
 BEAMS = 45
 """Beams of a scan that are compared, evenly spaced: more of them err together."""
 MIN_RANGE, MAX_RANGE = 0.05, 30.0
@@ -63,10 +53,8 @@ NO_RETURN_BEYOND = 15.0
 class SensorSettings:
     """The mixture of the beam model, and the weight of a scan."""
 
-    z_hit: float = 0.58  # share of readings on long straight surfaces that show the drawn wall
-    z_hit_small: float = 0.25  # the same on surfaces shorter than half a metre
-    z_short: float = 0.22  # share of readings on long surfaces that are too short: furniture and people
-    z_short_small: float = 0.55  # the same on small surfaces
+    z_hit: float = 0.35  # share of readings that show the drawn wall
+    z_short: float = 0.45  # share of readings that are too short: furniture and people
     z_beyond: float = 0.02  # share of readings that are too long: open doors, missing walls
     z_rand: float = 0.05  # share of readings that have nothing to do with the drawing
     sigma_hit: float = 0.18  # standard deviation of log(predicted / measured): walls are drawn 18 % off
@@ -77,10 +65,7 @@ class SensorSettings:
 
     def __post_init__(self) -> None:
         """Reject invalid settings."""
-        for name in (
-            "z_hit", "z_hit_small", "z_short", "z_short_small", "z_beyond", "z_rand",
-            "sigma_hit", "lambda_short", "lambda_beyond",
-        ):  # fmt: skip
+        for name in ("z_hit", "z_short", "z_beyond", "z_rand", "sigma_hit", "lambda_short", "lambda_beyond"):
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be > 0 and finite, got {getattr(self, name)}")
         if not 0.0 <= self.effective_beams <= BEAMS:
@@ -89,17 +74,14 @@ class SensorSettings:
             raise ValueError(f"null_log_ratio must be finite, got {self.null_log_ratio}")
 
     def hit_density(self, error: Array) -> Array:
-        """Return the density of readings of the drawn wall at e (k,), times its share, (SURFACES, k)."""
+        """Return the density of readings of the drawn wall at e, weighted by its share."""
         normal = np.exp(-(error**2) / (2.0 * self.sigma_hit**2)) / (self.sigma_hit * math.sqrt(math.tau))
-        return np.outer(np.linspace(self.z_hit_small, self.z_hit, SURFACES), normal)
+        return np.asarray(self.z_hit * normal)
 
     def density(self, error: Array) -> Array:
-        """Return the density of readings that the drawing predicts at e (k,): all but rand, (SURFACES, k)."""
+        """Return the density of readings that the drawing predicts at e: hit, short and beyond."""
         distance = np.abs(error)
-        short = np.outer(
-            np.linspace(self.z_short_small, self.z_short, SURFACES),
-            self.lambda_short * np.exp(-self.lambda_short * distance),
-        )
+        short = self.z_short * self.lambda_short * np.exp(-self.lambda_short * distance)
         beyond = self.z_beyond * self.lambda_beyond * np.exp(-self.lambda_beyond * distance)
         return np.asarray(self.hit_density(error) + np.where(error > 0.0, short, beyond))
 
@@ -116,7 +98,6 @@ class SparseScan:
 
     beams: NDArray[np.int32]  # (m,) directions in the robot's frame, 0 .. HEADINGS - 1 steps
     levels: NDArray[np.int32]  # (m,) log metres in steps of LOG_STEP, or NO_RETURN
-    surfaces: NDArray[np.int32]  # (m,) how long the surface of the reading is, 0 .. SURFACES - 1
 
     def __len__(self) -> int:
         """Count the beams."""
@@ -124,14 +105,14 @@ class SparseScan:
 
     @cached_property
     def classes(self) -> NDArray[np.int32]:
-        """The class of each reading in the table of ratios, by surface and range, (m,)."""
+        """The class of each range in the table of ratios, (m,)."""
         log_ranges = self.levels * kernels.visibility.LOG_STEP
         classes = np.floor(log_ranges / CLASS_WIDTH).astype(np.int32) - FIRST_CLASS
-        return np.asarray(self.surfaces * CLASSES + np.clip(classes, 0, CLASSES - 1), dtype=np.int32)
+        return np.asarray(np.clip(classes, 0, CLASSES - 1), dtype=np.int32)
 
 
-def thin_scan(scan: LaserScan, surfaces: Sequence[Polyline]) -> SparseScan:
-    """Take evenly spaced beams of a scan, as seen from the robot's base; so are the simplified surfaces."""
+def thin_scan(scan: LaserScan) -> SparseScan:
+    """Take evenly spaced beams of a scan, as seen from the robot's base."""
     visibility = kernels.visibility
     chosen = np.unique(np.linspace(0, len(scan) - 1, BEAMS).astype(np.intp))
     directions, ranges = scan.directions[chosen], scan.ranges[chosen]
@@ -140,41 +121,10 @@ def thin_scan(scan: LaserScan, surfaces: Sequence[Polyline]) -> SparseScan:
     returned = ranges <= MAX_RANGE
     reached = np.where(returned, ranges, MAX_RANGE)
     ends = np.column_stack([reached * np.cos(directions), reached * np.sin(directions)])
-    points = scan.base_from_laser @ ends
-    x, y = points.T
+    x, y = (scan.base_from_laser @ ends).T
     beams = np.round(np.arctan2(y, x) / math.tau * visibility.HEADINGS).astype(np.int32) % visibility.HEADINGS
     levels = np.round(np.log(np.maximum(np.hypot(x, y), MIN_RANGE)) / visibility.LOG_STEP)
-    lengths = surface_lengths(points, surfaces)
-    return SparseScan(
-        beams,
-        np.where(returned, levels, visibility.NO_RETURN).astype(np.int32),
-        np.digitize(lengths, SURFACE_LENGTHS).astype(np.int32),
-    )
-
-
-def surface_lengths(points: Array, surfaces: Sequence[Polyline]) -> Array:
-    """Return the length of the longest segment that each point (m, 2) lies on, 0 if on none, (m,) [m].
-
-    Points and surfaces are in the robot's frame.
-    """
-    if not surfaces or len(points) == 0:
-        return np.zeros(len(points))
-    rings = [surface.ring for surface in surfaces]
-    starts = np.vstack([ring[:-1] for ring in rings])
-    along = np.vstack([np.diff(ring, axis=0) for ring in rings])
-    lengths = np.hypot(along[:, 0], along[:, 1])
-    offsets = points[:, np.newaxis] - starts
-    with np.errstate(invalid="ignore"):
-        shares = np.nan_to_num(np.clip((offsets * along).sum(axis=2) / lengths**2, 0.0, 1.0))
-    feet = offsets - shares[:, :, np.newaxis] * along
-    tolerance = SURFACE_TOLERANCE + SURFACE_TOLERANCE_SHARE * np.hypot(points[:, 0], points[:, 1])
-    lies_on = np.hypot(feet[:, :, 0], feet[:, :, 1]) < tolerance[:, np.newaxis]
-    return np.asarray(np.where(lies_on, lengths, 0.0).max(axis=1))
-
-
-def by_class(table: Array) -> NDArray[np.float32]:
-    """Join surfaces and classes of ranges of a table to one axis."""
-    return table.reshape(SURFACES * CLASSES, -1).astype(np.float32)
+    return SparseScan(beams, np.where(returned, levels, visibility.NO_RETURN).astype(np.int32))
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,25 +143,22 @@ class SensorModel:
 
     @cached_property
     def _null(self) -> Array:
-        """The null density of each class of ranges, (1, CLASSES, 1)."""
+        """The null density of each class of ranges, (CLASSES, 1)."""
         middles = (np.arange(CLASSES) + FIRST_CLASS + 0.5) * CLASS_WIDTH
-        return null_density(middles)[np.newaxis, :, np.newaxis]
+        return null_density(middles)[:, np.newaxis]
 
     @cached_property
     def log_ratios(self) -> NDArray[np.float32]:
-        """Logarithm of the likelihood ratio to the null model by class of reading and e.
-
-        (SURFACES * CLASSES, 2 k + 1)
-        """
-        density = self.settings.density(self._errors)[:, np.newaxis]
-        return by_class(np.log(density / self._null + self.settings.z_rand))
+        """Logarithm of the likelihood ratio to the null model by class of range and e, (CLASSES, 2 k + 1)."""
+        ratios = self.settings.density(self._errors) / self._null + self.settings.z_rand
+        return np.log(ratios).astype(np.float32)
 
     @cached_property
     def hit_shares(self) -> NDArray[np.float32]:
-        """Probability that a reading shows the drawn wall, as `log_ratios`."""
+        """Probability that a reading shows the drawn wall, by class of range and e, (CLASSES, 2 k + 1)."""
         settings = self.settings
-        total = settings.density(self._errors)[:, np.newaxis] + settings.z_rand * self._null
-        return by_class(settings.hit_density(self._errors)[:, np.newaxis] / total)
+        total = settings.density(self._errors) + settings.z_rand * self._null
+        return np.asarray(settings.hit_density(self._errors) / total, dtype=np.float32)
 
     def log_ratio(self, states: Array, scan: SparseScan) -> Array:
         """Return the tempered log-likelihood ratio to the null model of each state (6, n), (n,).
