@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
-from pilotage.interpretation import Mark, Pen, Role, Sheet, interpret
+from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
 from pilotage.interpretation.windows import windows
 
@@ -232,3 +232,14 @@ def test_where_hatching_pauses_between_rooms_there_is_a_door(pause, across):
     doors = ends_of_gateways(hatched_flat(pause=pause, across=across))
 
     assert doors == ([{"bath", "hall"}] if pause == 49 and across else [])
+
+
+PASSAGE = (box(0, 0, 100, 12, pen=PEN), stroke((50, 0), (50, 1)), stroke((50, 11), (50, 12)))
+IN_PASSAGE = (Text("bath", (25.0, 6.0), 2.0), Text("hall", (75.0, 6.0), 2.0))
+
+
+def test_a_door_that_is_drawn_parts_even_where_a_corridor_hardly_narrows():
+    door = (stroke((50, 1), (60, 1)), arc((50, 1), 10, 0, 90))
+
+    assert {cell.label for cell in graph_of((*PASSAGE, *door), IN_PASSAGE).cells} == {"bath", "hall"}
+    assert [cell.label for cell in graph_of(PASSAGE, IN_PASSAGE).cells] == ["bath, hall"]
