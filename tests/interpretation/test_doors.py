@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
-from pilotage.interpretation import Mark, Pen, Role, Sheet, interpret
+from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
 from pilotage.interpretation.windows import windows
 
@@ -209,3 +209,37 @@ def test_arcs_on_a_layer_of_furniture_are_no_doors():
 
     assert roles((OUTSIDE, WALL, *cupboard)) == [Role.WALL, Role.WALL, Role.FURNITURE, Role.FURNITURE]
     assert not are_joined((OUTSIDE, WALL, *cupboard))
+
+
+HATCHED = [(0, 0, 100, 80), (2, 2, 49, 78), (51, 2, 98, 78)]
+
+
+def hatched_flat(*, pause, across=True):
+    """Two rooms in double walls, hatched but from y = 32 to 40 in the inner wall or an outer one."""
+    inner = [(49, y, 51, y) for y in range(2, 79, 2)]
+    outer = [(x, y, x, y + 2) for x in range(2, 99, 2) for y in (0, 78)]
+    outer += [(x, y, x + 2, y) for x in (0, 98) for y in range(2, 79, 2)]
+    lines = [line for line in inner + outer if line[0] != pause or not 32 < line[1] < 40] if across else []
+    return (
+        *(box(*corners, pen=PEN) for corners in HATCHED),
+        *(stroke(line[:2], line[2:]) for line in lines),
+    )
+
+
+@pytest.mark.parametrize("across", [True, False])
+@pytest.mark.parametrize("pause", [49, 0, None])
+def test_where_hatching_pauses_between_rooms_there_is_a_door(pause, across):
+    doors = ends_of_gateways(hatched_flat(pause=pause, across=across))
+
+    assert doors == ([{"bath", "hall"}] if pause == 49 and across else [])
+
+
+PASSAGE = (box(0, 0, 100, 12, pen=PEN), stroke((50, 0), (50, 1)), stroke((50, 11), (50, 12)))
+IN_PASSAGE = (Text("bath", (25.0, 6.0), 2.0), Text("hall", (75.0, 6.0), 2.0))
+
+
+def test_a_door_that_is_drawn_parts_even_where_a_corridor_hardly_narrows():
+    door = (stroke((50, 1), (60, 1)), arc((50, 1), 10, 0, 90))
+
+    assert {cell.label for cell in graph_of((*PASSAGE, *door), IN_PASSAGE).cells} == {"bath", "hall"}
+    assert [cell.label for cell in graph_of(PASSAGE, IN_PASSAGE).cells] == ["bath, hall"]

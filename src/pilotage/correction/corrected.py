@@ -79,6 +79,7 @@ def carried_sketch(sketch: SchematicMap, elastic: ElasticMap) -> SchematicMap:
         solids=carried_lines(sketch.solids, elastic),
         metres_per_unit=1.0,
         zones=Zones(*(carried_lines(lines, elastic) for lines in sketch.zones.lines)),
+        doors=carried_lines(sketch.doors, elastic),
     )
 
 

@@ -124,6 +124,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         metres_per_unit=sheet.metres_per_unit,
         zones=find_zones(sheet, told),
         photo_from_sketch=sheet.photo_from_sheet,
+        doors=tuple(Polyline(np.array([door.hinge, door.latch])) for door in doors),
     )
     meanings = find_meanings(
         sheet,

@@ -9,6 +9,7 @@ import shapely
 
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.floors import floor_edges
+from pilotage.interpretation.hatching import shut_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import find_partitions
 from pilotage.interpretation.sheet import Color, Role, Sheet
@@ -41,6 +42,9 @@ USUAL_DOOR = 0.03
 
 NEARLY_ALL = 0.9
 """Black lines alone are the walls if they enclose this share of what all lines enclose."""
+
+SHUT = 0.25
+"""What is drawn in place of a door is thicker than what it encloses by this share of a wall's thickness."""
 
 HOLDING = 0.75
 """What is named wall is all walls if so many of the doors stand in it, as a share."""
@@ -206,6 +210,10 @@ def faced_walls(drawn: Drawn) -> Walls | None:
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
     if not are_walls(walls, drawn.lines, gap):
         return None
+    shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
+    shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
+    drawn = replace(drawn, main=shapely.difference(drawn.main, shut))
+    walls = shapely.difference(walls, shut)
     return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)
 
 

@@ -33,6 +33,7 @@ class SchematicMap:
     metres_per_unit: float | None = None  # what the file says of its scale; localization does not use it
     zones: Zones = field(default_factory=Zones)  # where not to drive, or only in one way
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
+    doors: tuple[Polyline, ...] = ()  # from hinge to latch, where a leaf or its swing is drawn
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""
@@ -89,6 +90,7 @@ class SchematicMap:
             strokes=tuple(carried(line).reversed() for line in self.strokes),  # free space stays on the left
             solids=tuple(carried(line).reversed() for line in self.solids),
             zones=Zones(*(tuple(map(carried, lines)) for lines in self.zones.lines)),
+            doors=tuple(carried(line) for line in self.doors),
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),

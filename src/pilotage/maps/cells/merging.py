@@ -42,6 +42,7 @@ class Regions:
         tessellation: Tessellation,
         among: NDArray[np.bool_],
         named: NDArray[np.bool_],
+        drawn: NDArray[np.bool_],
         *,
         solids_known: bool,
     ) -> None:
@@ -52,6 +53,7 @@ class Regions:
         self.region_of = np.where(among, np.arange(len(among)), -1)
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
         self.named: list[bool] = named.tolist()
+        self.drawn: list[bool] = drawn.tolist()
         self.beside = neighbors(tessellation) if solids_known else None
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
@@ -65,7 +67,9 @@ class Regions:
         least = min_area * total
         if smaller < least and not (self.named[first] and self.named[second]):
             return smaller / least
-        chords = self.chords_to[first][second]
+        chords = [chord for chord in self.chords_to[first][second] if not self.drawn[chord]]
+        if not chords:
+            return np.inf  # doors are drawn, and nothing else lies between
         opening = self.widest_opening(chords)
         narrow, wide = sorted((self.reaches[first], self.reaches[second]))
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
@@ -126,6 +130,7 @@ def merge_pieces(
     tessellation: Tessellation,
     among: NDArray[np.bool_],
     named: NDArray[np.bool_],
+    drawn: NDArray[np.bool_],
     min_area: float,
     *,
     solids_known: bool,
@@ -133,9 +138,10 @@ def merge_pieces(
     """Merge pieces, the weakest opening first; return the region of each, (p,), -1 for the rest (4.1).
 
     `named` tells in which pieces (p,) a name stands: what is small is not merged into what has another name.
+    `drawn` tells which chords (n,) are at doors that are drawn: these always separate.
     Two doors beside each other are no wide opening if `solids_known`: else a hand may have broken the line.
     """
-    regions = Regions(tessellation, among, named, solids_known=solids_known)
+    regions = Regions(tessellation, among, named, drawn, solids_known=solids_known)
     total = float(tessellation.areas[among].sum())
     queue: list[tuple[float, int, int, int]] = []
 
@@ -177,21 +183,25 @@ def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> N
 
 
 def join_corridors(
-    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_]
+    tessellation: Tessellation,
+    regions: NDArray[np.int64],
+    named: NDArray[np.bool_],
+    drawn: NDArray[np.bool_],
 ) -> NDArray[np.int64]:
     """Join the pieces of corridors: what leads on through an opening as wide as itself, without a door.
 
     Where walls have a thickness a door shows as a narrowing of both sides; a corridor that turns, branches or
     widens hardly narrows. A niche leads nowhere and stays what it is, and so does a wide room with a name.
-    Two names are never joined; `named` tells in which pieces (p,) one stands.
+    Two names are never joined; `named` tells in which pieces (p,) one stands, and `drawn` which chords (n,)
+    are at doors that are drawn.
     """
     reaches = np.zeros(len(regions))
     np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
     has_name = np.zeros(len(regions), dtype=bool)
     has_name[regions[named & (regions >= 0)]] = True
-    borders, openings = borders_of(tessellation, regions)
+    borders, openings, has_drawn = borders_of(tessellation, regions, drawn)
     narrow, wide = np.sort(reaches[borders], axis=1).T
-    is_door = narrow >= NARROWING * openings
+    is_door = (narrow >= NARROWING * openings) | has_drawn
     if not is_door.any():
         return regions
     door = float(np.median(openings[is_door]))
@@ -209,13 +219,19 @@ def join_corridors(
     return np.where(regions >= 0, joined[regions], -1)
 
 
-def borders_of(tessellation: Tessellation, regions: NDArray[np.int64]) -> tuple[NDArray[np.int64], Array]:
-    """List the pairs of regions with openings between them, (n, 2), and how wide these are together, (n,)."""
+def borders_of(
+    tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_]]:
+    """List the pairs of regions with openings between them, (n, 2), and how wide these are together, (n,).
+
+    Tell also whether all openings of a pair are doors that are drawn, (n,).
+    """
     sides = regions[tessellation.sides]
     between = (sides >= 0).all(axis=1) & (sides[:, 0] != sides[:, 1])
     borders, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
     openings = np.bincount(owner.ravel(), tessellation.widths[between], minlength=len(borders))
-    return borders, openings.astype(np.float64)
+    others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(borders))
+    return borders, openings.astype(np.float64), others == 0
 
 
 def drop_small(
