@@ -10,9 +10,9 @@ BLACK, RED, WHITE = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 ROOMS = {"bath": (25.0, 40.0), "hall": (75.0, 40.0)}
 
 
-def stroke(*points, color=BLACK, dashed=False, names=()):
+def stroke(*points, color=BLACK, width=1.0, dashed=False, names=()):
     """A line through points."""
-    return Mark((Polyline(np.array(points, dtype=float)),), Pen(color, 1.0, dashed), names=names)
+    return Mark((Polyline(np.array(points, dtype=float)),), Pen(color, width, dashed), names=names)
 
 
 def box(left, bottom, right, top, *, pen=None, fill=None, names=()):

@@ -62,6 +62,18 @@ def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
     assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, table)).cells)
 
 
+def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_rooms_if_they_are_long():
+    threshold = [stroke((x, 30), (x, 42), width=0.1) for x in (49.5, 50.5)]
+    table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), width=0.1)
+    partition = stroke((50, 0), (50, 80), width=0.1)
+
+    understood = interpret(Sheet((*WITH_GAP, *threshold, table)))
+
+    assert are_joined((*WITH_GAP, *threshold, table))
+    assert [Role.FURNITURE] * 3 == [meaning.role for meaning in understood.meanings[-3:]]
+    assert not are_joined((OUTSIDE, partition))
+
+
 @pytest.mark.parametrize("layer", ["A-FURN", "Möbel", "mobilier", "arredo"])
 def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
     sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))

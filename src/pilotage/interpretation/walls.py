@@ -11,7 +11,7 @@ from pilotage.interpretation.doors import Door
 from pilotage.interpretation.floors import floor_edges
 from pilotage.interpretation.hatching import shut_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
-from pilotage.interpretation.partitions import find_partitions
+from pilotage.interpretation.partitions import TOUCHING, find_partitions
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
     are_walls,
@@ -23,7 +23,7 @@ from pilotage.interpretation.solids import (
     painted_thickness,
     without_crumbs,
 )
-from pilotage.interpretation.windows import windows, without_slivers
+from pilotage.interpretation.windows import building, windows, without_slivers
 
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
@@ -58,6 +58,12 @@ COLORFUL = 0.5
 LONG = 0.15
 """A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
 
+THIN = 1.0 / 3.0
+"""A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
+
+A hairline is not: files have it where no width was chosen.
+"""
+
 EDGE = 0.0005
 """Lines that are nearer than this share of the drawing's diagonal are one."""
 
@@ -81,7 +87,7 @@ class Drawn:
     solid: shapely.Geometry  # areas in the colors of walls
     colors: frozenset[Color]
     main: shapely.Geometry  # lines in black or gray, as they were drawn: they may cross and overlap
-    marginal: shapely.Geometry  # lines in a color, and dashed ones, likewise
+    marginal: shapely.Geometry  # lines in a color, dashed and thin ones, likewise
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows
     named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
@@ -218,7 +224,10 @@ def faced_walls(drawn: Drawn) -> Walls | None:
 
 
 def black_lines(drawn: Drawn) -> Walls | None:
-    """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed."""
+    """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed.
+
+    What leads across a gap of a door's width within the building is a threshold, and parts nothing.
+    """
     if drawn.main.is_empty or drawn.marginal.is_empty:
         return None
     gap = drawn.gap(WIDE_GAP)
@@ -229,22 +238,41 @@ def black_lines(drawn: Drawn) -> Walls | None:
     main = shapely.union_all(drawn.main)
     body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
     others = shapely.difference(shapely.union_all(drawn.marginal), body)
-    parting = find_partitions(others, body, drawn.doors, drawn.door_width or USUAL_DOOR * drawn.diagonal)
+    width = drawn.door_width or USUAL_DOOR * drawn.diagonal
+    parting = find_partitions(others, body, drawn.doors, width)
+    within = shapely.buffer(building(body, WIDEST * width), -TOUCHING * width)
+    parting = shapely.union_all(
+        [
+            part
+            for part in parts_of(shapely.line_merge(parting))
+            if extent(part) > WIDEST * width or not within.contains(part)
+        ]
+    )
     long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *long]), drawn.colors)
 
 
 def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from those in a color and from dashed ones."""
+    """Part lines in black or gray from those in a color, from dashed and from thin ones."""
+    thin = THIN * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
-            is_marginal = pen.dashed or max(pen.color) - min(pen.color) >= COLORFUL
+            is_colored = max(pen.color) - min(pen.color) >= COLORFUL
+            is_marginal = pen.dashed or is_colored or 0.0 < pen.width < thin
             (marginal if is_marginal else main).append(mark.line)
     black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
     return shapely.multilinestrings(black), shapely.multilinestrings(other)
+
+
+def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> float:
+    """Find the width of the pen that draws the middle of all ink, from the narrowest pen to the widest."""
+    pens = [(pen.width, mark.line.length) for mark in seen if (pen := sheet.marks[mark.number].pen)]
+    widths, lengths = np.array(sorted(pens)).reshape(-1, 2).T
+    ink = np.cumsum(widths * lengths)
+    return float(widths[np.searchsorted(ink, ink[-1] / 2.0)]) if len(ink) else 0.0
 
 
 def rings_of(solid: shapely.Geometry) -> list[shapely.LinearRing]:
