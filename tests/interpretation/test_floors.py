@@ -49,3 +49,9 @@ def test_a_floor_that_carries_few_walls_ends_nowhere():
     terrace = box(0, -16, 100, 0, fill=FLOOR)
 
     assert beside_walk((terrace, *WALLS)) == set()
+
+
+def test_a_symbol_beside_the_building_needs_no_floor():
+    floor, symbol = box(0, -16, 100, 80, fill=FLOOR), box(115, 20, 118, 60, fill=BLACK)
+
+    assert beside_walk((floor, *WALLS, symbol)) == {"bath", "hall"}

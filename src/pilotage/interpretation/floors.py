@@ -13,7 +13,10 @@ PALE = 0.4
 """A fill that differs less than this from the ground in lightness is a floor if it has no line around it."""
 
 CARRIED = 0.9
-"""Floors are those of the building if so much of its walls stands on them, as a share."""
+"""Floors are those of the building if so much of the walls that touch them stands on them, as a share."""
+
+MOST = 0.5
+"""And if they touch so much of all walls: what stands beside is a symbol, or another building."""
 
 SITE = 2.0
 """What is painted below a building is a site, no floor, if it is so many times as large as its hull."""
@@ -23,9 +26,9 @@ BESIDE = 0.5
 
 
 def floor_edges(
-    floors: shapely.Geometry, walls: shapely.Geometry, thickness: float, widest: float
+    floors: shapely.Geometry, walls: shapely.Geometry, thickness: float, gap: float
 ) -> shapely.Geometry:
-    """Return the edges of the floors that walls stand on, where there is no wall over more than a door."""
+    """Return the edges of the floors that walls stand on, where there is no wall over more than a gap."""
     if floors.is_empty or walls.is_empty:
         return NOTHING
     paved = shapely.buffer(shapely.union(floors, walls), thickness, join_style="mitre")
@@ -33,12 +36,17 @@ def floor_edges(
     paved = shapely.union_all(
         [part for part in parts_of(paved) if shapely.intersection(part, walls).area > 0.0]
     )
-    on_floors = shapely.intersection(walls, shapely.buffer(floors, thickness, join_style="mitre"))
-    if on_floors.area < CARRIED * walls.area or paved.area > SITE * shapely.convex_hull(walls).area:
+    reached = shapely.buffer(floors, thickness, join_style="mitre")
+    parts = parts_of(walls)
+    touching = shapely.area(parts[shapely.intersects(parts, floors)]).sum()
+    carried = shapely.intersection(walls, reached).area
+    if carried < CARRIED * touching or touching < MOST * walls.area:
+        return NOTHING
+    if paved.area > SITE * shapely.convex_hull(walls).area:
         return NOTHING
     body = shapely.buffer(walls, BESIDE * thickness, join_style="mitre")
     edges = parts_of(shapely.line_merge(shapely.difference(shapely.boundary(paved), walls)))
-    open_ = edges[shapely.length(shapely.difference(edges, body)) > widest]
+    open_ = edges[shapely.length(shapely.difference(edges, body)) > gap]
     return shapely.multilinestrings(open_) if len(open_) else NOTHING
 
 

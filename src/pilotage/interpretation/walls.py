@@ -133,7 +133,7 @@ class Drawn:
 
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
-        edges = floor_edges(self.floors, walls, thickness, self.widest)
+        edges = floor_edges(self.floors, walls, thickness, gap)
         lines = shapely.union(self.lines, edges)
         parting = find_partitions(lines, walls, self.doors, self.door_width or gap)
         return shapely.union(parting, edges)
