@@ -74,6 +74,18 @@ def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_roo
     assert not are_joined((OUTSIDE, partition))
 
 
+def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_around_it():
+    walls = (OUTSIDE, stroke((50, 0), (50, 80)))
+    brown, blue = (0.55, 0.27, 0.07), (0.53, 0.81, 0.92)
+    door, window = stroke((50, 30), (50, 38), color=brown), stroke((0, 20), (0, 34), color=blue)
+
+    understood = interpret(Sheet((*walls, door, window)))
+
+    assert not are_joined(walls)
+    assert are_joined((*walls, door, window))
+    assert Role.WALL is understood.meanings[-1].role
+
+
 @pytest.mark.parametrize("layer", ["A-FURN", "Möbel", "mobilier", "arredo"])
 def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
     sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))

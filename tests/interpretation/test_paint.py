@@ -1,6 +1,7 @@
 """What is seen of marks, against a painter that paints one square after the other."""
 
 import numpy as np
+import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
@@ -82,3 +83,34 @@ def test_a_line_is_whole_if_nothing_hides_it(marks):
     for number, squares in enumerate(paint(marks)):
         if marks[number].pen is not None and squares.any():
             assert visible[number].whole == np.array_equal(squares, squares_of(marks[number]))
+
+
+def bar(first, last, color, width):
+    """A line from left to right."""
+    return Mark((Polyline.through([(first, 5.0), (last, 5.0)]),), Pen(color, width))
+
+
+@pytest.mark.parametrize(
+    ("color", "width", "left"),
+    [
+        (RED, 1.0, 7.0),  # runs along it
+        (RED, 0.5, 12.0),  # its edges are seen to both sides
+        (BLACK, 1.0, 12.0),  # goes on as the other does
+        (WHITE, 1.0, 7.0),
+        (WHITE, 0.5, 12.0),
+    ],
+)
+def test_a_line_over_another_hides_it_if_it_is_unlike_and_as_wide(color, width, left):
+    seen = look_at(
+        Sheet((bar(0.0, 12.0, BLACK, 1.0), bar(4.0, 9.0, color, width))), range(2), WHITE, DIAGONAL
+    )
+
+    assert seen[0].line.length == pytest.approx(left)
+
+
+def test_a_line_in_a_color_that_crosses_another_does_not_cut_it():
+    crossing = Mark((Polyline.through([(6.0, 0.0), (6.0, 10.0)]),), Pen(RED, 1.0))
+
+    seen = look_at(Sheet((bar(0.0, 12.0, BLACK, 1.0), crossing)), range(2), WHITE, DIAGONAL)
+
+    assert seen[0].line.length == pytest.approx(12.0)

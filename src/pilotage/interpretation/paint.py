@@ -17,6 +17,15 @@ FAINT = 0.1
 EDGE = 0.0005
 """Paint hides nothing this near its border, as a share of the drawing's diagonal: neighbors share edges."""
 
+UNLIKE = 0.3
+"""A line in a color hides a line below it if they differ so much in a channel: a door drawn over a wall."""
+
+AS_WIDE = 0.8
+"""A line hides one that runs below it if it is so wide, as a share; else the edges of that one are seen."""
+
+ALONG = 3.0
+"""What a line in a color hides is longer than this many of its widths; it crosses other lines."""
+
 NOTHING = shapely.GeometryCollection()
 
 
@@ -36,11 +45,12 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
     areas = [area_of(mark) if mark.fill is not None else NOTHING for mark in marks]
     inked = [mark.pen is not None and difference(mark.pen.color, ground) >= FAINT for mark in marks]
     lines = [line_of(mark) if shown else NOTHING for mark, shown in zip(marks, inked, strict=True)]
-    covers = [cover_of(mark, area, ground, EDGE * diagonal) for mark, area in zip(marks, areas, strict=True)]
+    covers = [cover_of(area, EDGE * diagonal) for area in areas]
+    tracks = [track_of(mark, ground) for mark in marks]
     tree = shapely.STRtree(np.array([united(*pair) for pair in zip(lines, areas, strict=True)]))
     hidden: dict[int, list[int]] = {}
-    for later, cover in enumerate(covers):
-        if not cover.is_empty:
+    for later, pair in enumerate(zip(covers, tracks, strict=True)):
+        if not (cover := united(*pair)).is_empty:
             for earlier in tree.query(cover, predicate="intersects").tolist():
                 if earlier < later:
                     hidden.setdefault(earlier, []).append(later)
@@ -49,10 +59,15 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
         line, area = lines[place], areas[place]
         if mark.fill is not None and difference(mark.fill, ground) < FAINT:
             area = NOTHING
-        above = [covers[later] for later in hidden.get(place, [])]
+        above = hidden.get(place, [])
         if above:
-            cover = shapely.union_all(above)
-            line, area = shapely.difference(line, cover), shapely.difference(area, cover)
+            cover = shapely.union_all([covers[later] for later in above])
+            erased = shapely.union_all([tracks[later] for later in above if not inked[later]])
+            area = shapely.difference(area, shapely.union(cover, erased))
+            over = [hidden_by(marks[later], tracks[later], mark, line) for later in above if inked[later]]
+            wide = [tracks[later] for later in above if not inked[later] and covers_line(marks[later], mark)]
+            line = shapely.difference(line, shapely.union_all([cover, *wide]))
+            line = shapely.difference(line, shapely.union_all(over)) if over else line
         if not (line.is_empty and area.is_empty):
             whole = not above or bool(np.isclose(line.length, lines[place].length, rtol=1e-6))
             seen.append(Seen(number, line, area, whole))
@@ -86,13 +101,41 @@ def area_of(mark: Mark) -> shapely.Geometry:
     return polygons_of(areas[0])
 
 
-def cover_of(mark: Mark, area: shapely.Geometry, ground: Color, edge: float) -> shapely.Geometry:
-    """Return what a mark hides: its area up to its edge, and the width of a line that cannot be seen."""
-    cover = shapely.buffer(area, -edge, join_style="mitre") if not area.is_empty else NOTHING
-    if mark.pen is not None and mark.pen.width > 0.0 and difference(mark.pen.color, ground) < FAINT:
-        track = shapely.buffer(line_of(mark), mark.pen.width / 2.0, cap_style="flat", join_style="mitre")
-        cover = shapely.union(cover, track)
-    return cover
+def cover_of(area: shapely.Geometry, edge: float) -> shapely.Geometry:
+    """Return what a mark's fill hides: its area up to its edge."""
+    return shapely.buffer(area, -edge, join_style="mitre") if not area.is_empty else NOTHING
+
+
+def track_of(mark: Mark, ground: Color) -> shapely.Geometry:
+    """Return where a line lies that hides what is below: one that cannot be seen, or one in a color."""
+    if mark.pen is None or mark.pen.width == 0.0:
+        return NOTHING
+    is_colored = max(mark.pen.color) - min(mark.pen.color) >= UNLIKE
+    if not is_colored and difference(mark.pen.color, ground) >= FAINT:
+        return NOTHING
+    return shapely.buffer(line_of(mark), mark.pen.width / 2.0, cap_style="flat", join_style="mitre")
+
+
+def covers_line(later: Mark, earlier: Mark) -> bool:
+    """Tell whether a line is wide enough to hide another that runs below it."""
+    return (
+        later.pen is not None and earlier.pen is not None and later.pen.width >= AS_WIDE * earlier.pen.width
+    )
+
+
+def hidden_by(
+    later: Mark, track: shapely.Geometry, earlier: Mark, line: shapely.Geometry
+) -> shapely.Geometry:
+    """Return what a line in a color hides of a line: where it runs along it, and not where it crosses it."""
+    if later.pen is None or earlier.pen is None or track.is_empty or not covers_line(later, earlier):
+        return NOTHING
+    if difference(later.pen.color, earlier.pen.color) < UNLIKE:
+        return NOTHING
+    pieces = parts_of(shapely.line_merge(shapely.intersection(line, track)))
+    long = pieces[shapely.length(pieces) > ALONG * later.pen.width]
+    if not len(long):
+        return NOTHING
+    return shapely.buffer(shapely.union_all(long), later.pen.width / 2.0, cap_style="flat")
 
 
 def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:

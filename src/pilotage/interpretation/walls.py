@@ -46,13 +46,16 @@ NEARLY_ALL = 0.9
 SHUT = 0.25
 """What is drawn in place of a door is thicker than what it encloses by this share of a wall's thickness."""
 
+GLAZED = (2.0, 0.85)
+"""Windows may be in a color: with gaps so many times as wide closed, too, this share of it is enough."""
+
 HOLDING = 0.75
 """What is named wall is all walls if so many of the doors stand in it, as a share."""
 
 AT_DOOR = 0.25
 """A wall is beside a door if it is this near to its hinge, as a share of its width."""
 
-COLORFUL = 0.5
+COLORFUL = 0.45
 """A line is in a color if its channels differ by this much; ink in a photo is paler."""
 
 LONG = 0.15
@@ -226,13 +229,17 @@ def faced_walls(drawn: Drawn) -> Walls | None:
 def black_lines(drawn: Drawn) -> Walls | None:
     """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed.
 
-    What leads across a gap of a door's width within the building is a threshold, and parts nothing.
+    What leads across a gap of a door's width within the building is a threshold, and parts nothing; on its
+    border it is a window.
     """
     if drawn.main.is_empty or drawn.marginal.is_empty:
         return None
     gap = drawn.gap(WIDE_GAP)
     everything = enclosed(NOTHING, drawn.lines, gap)
-    if everything == 0.0 or enclosed(NOTHING, drawn.main, gap) < NEARLY_ALL * everything:
+    if everything == 0.0:
+        return None
+    ways = ((1.0, NEARLY_ALL), GLAZED)
+    if not any(enclosed(NOTHING, drawn.main, wide * gap) >= share * everything for wide, share in ways):
         return None
     edge = EDGE * drawn.diagonal
     main = shapely.union_all(drawn.main)
@@ -240,16 +247,21 @@ def black_lines(drawn: Drawn) -> Walls | None:
     others = shapely.difference(shapely.union_all(drawn.marginal), body)
     width = drawn.door_width or USUAL_DOOR * drawn.diagonal
     parting = find_partitions(others, body, drawn.doors, width)
-    within = shapely.buffer(building(body, WIDEST * width), -TOUCHING * width)
+    widest = max(WIDEST * width, gap)
+    near = shapely.buffer(body, TOUCHING * width)
+    bridges = [part for part in parts_of(shapely.line_merge(others)) if near.covers(shapely.boundary(part))]
+    within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
+    shapely.prepare(within)
+    outer = [part for part in bridges if not part.is_closed and not within.contains(part)]
     parting = shapely.union_all(
         [
             part
             for part in parts_of(shapely.line_merge(parting))
-            if extent(part) > WIDEST * width or not within.contains(part)
+            if extent(part) > widest or not within.contains(part)
         ]
     )
     long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
-    return Walls(drawn.solid, shapely.union_all([main, parting, *long]), drawn.colors)
+    return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
 
 
 def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
