@@ -171,7 +171,15 @@ def find_walls(
     called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
     called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
     drawn = Drawn(
-        solid, frozenset(colors), *by_style(seen, sheet), panels, glass, called, floors, doors, diagonal
+        solid,
+        frozenset(colors),
+        *by_style(seen, sheet, named),
+        panels,
+        glass,
+        called,
+        floors,
+        doors,
+        diagonal,
     )
     ways = (
         walls
@@ -264,8 +272,10 @@ def black_lines(drawn: Drawn) -> Walls | None:
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
 
 
-def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from those in a color, from dashed and from thin ones."""
+def by_style(
+    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role]
+) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Part lines in black or gray from those in a color, dashed ones, and thin ones not named walls."""
     thin = THIN * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
@@ -273,7 +283,8 @@ def by_style(seen: Sequence[Seen], sheet: Sheet) -> tuple[shapely.Geometry, shap
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
             is_colored = max(pen.color) - min(pen.color) >= COLORFUL
-            is_marginal = pen.dashed or is_colored or 0.0 < pen.width < thin
+            is_thin = 0.0 < pen.width < thin and named.get(mark.number) is not Role.WALL
+            is_marginal = pen.dashed or is_colored or is_thin
             (marginal if is_marginal else main).append(mark.line)
     black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
     return shapely.multilinestrings(black), shapely.multilinestrings(other)
