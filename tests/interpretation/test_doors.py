@@ -63,6 +63,17 @@ def test_a_leaf_may_have_a_thickness():
     assert are_joined((OUTSIDE, WALL, leaf, arc((50, 30), 12, 0, 90)))
 
 
+@pytest.mark.parametrize("angles", [(0, 90), (90, 0)])
+def test_a_leaf_that_leans_on_a_wall_is_no_opening(angles):
+    walls = [box(*bounds, fill=BLACK) for bounds in [*OUTER, (48, 0, 52, 5.5), (48, 17.5, 52, 80)]]
+    leaf, threshold = (stroke((52, 5.5), end) for end in ((64, 5.5), (52, 17.5)))
+    door = arc((52, 5.5), 12, *angles)
+
+    sketch = interpret(Sheet((*walls, leaf, threshold, door))).sketch
+
+    assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[52, 5.5], [52, 17.5]]]
+
+
 def test_two_leaves_make_one_double_door():
     lower = (stroke((50, 30), (57, 30)), arc((50, 30), 7, 0, 90))
     upper = (stroke((50, 44), (57, 44)), arc((50, 44), 7, -90, 0))
