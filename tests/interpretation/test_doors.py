@@ -84,6 +84,22 @@ def test_two_leaves_make_one_double_door():
     assert [Role.DOOR] * 4 == roles(marks)[2:]
 
 
+def gated(top):
+    """Draw two rooms with five doors between them, and a gate whose upper leaf may hang too high."""
+    jambs = [0, 6, 14, 20, 28, 34, 42, 48, 56, 62, 70, 80]
+    inner = [(48, jambs[k], 52, jambs[k + 1]) for k in range(0, len(jambs), 2)]
+    walls = [*OUTER[:3], (96, 0, 100, 24), (96, 56, 100, 80), *inner]
+    doors = [part for y in jambs[1:-1:2] for part in (arc((52, y), 8, 0, 90), stroke((52, y), (60, y)))]
+    lower = arc((98, 24), 16, 0, 90), stroke((98, 24), (114, 24))
+    upper = arc((98, top), 16, 270, 360), stroke((98, top), (114, top))
+    return [*(box(*bounds, fill=BLACK) for bounds in walls), *doors, *lower, *upper]
+
+
+@pytest.mark.parametrize(("top", "doors"), [(56, 7), (70, 5)])
+def test_two_leaves_that_meet_are_a_gate_though_far_wider_than_the_doors(top, doors):
+    assert len(interpret(Sheet(tuple(gated(top)))).sketch.doors) == doors
+
+
 def test_an_arc_far_from_any_wall_is_no_door():
     lamp = arc((20, 20), 8, 0, 90)
 

@@ -44,6 +44,15 @@ def test_what_is_wide_open_is_outside():
         found([(0, 0), (0, 5), (10, 5), (10, 0)])
 
 
+def test_a_drawn_gate_closes_though_it_is_wide():
+    yard, gate = Polyline.through([(0, 0), (0, 5), (10, 5), (10, 0)]), Polyline.through([(0, 0), (10, 0)])
+
+    space = free_space(SchematicMap((yard,), doors=(gate,)), DecompositionSettings())
+
+    assert pytest.approx(50.0, rel=1e-6) == space.region.area
+    assert space.drawn.any()
+
+
 def test_a_blot_is_no_wall():
     blot = [(5, 2), (5.05, 2), (5.05, 2.05), (5, 2.05), (5, 2)]
     space = found(ROOM, blot)

@@ -30,6 +30,9 @@ SLACK = 0.1
 BESIDE = 0.25
 """Where a wall is looked for beyond hinge and latch, as a share of the radius."""
 
+GATE = 3.0
+"""Two leaves that meet may each be so many times as wide as most doors: a gate."""
+
 BEHIND = (0.03, 0.2)
 """A wall this far behind a leaf that stands wide open, as shares of the radius, is one that it leans on."""
 
@@ -95,8 +98,10 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         return []
     usual = usual_width(candidates)
     doors = []
+    wings = [arc for arc, _, leaves, _ in judged if leaves.any()]
     for arc, marks, leaves, walls in judged:
-        like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
+        widest = usual * (GATE if any(meet(arc, other) for other in wings) else ALIKE)
+        like_others = usual / ALIKE <= arc.radius <= widest
         if not like_others or not (leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)):
             continue
         closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
@@ -109,6 +114,18 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         if like_others and not any(door.swing.contains(leaf) for door in doors):
             doors.append(Door(arc.center, arc.ends[1], arc, ()))
     return doors
+
+
+def meet(first: Arc, second: Arc) -> bool:
+    """Tell whether two arcs are of one width and meet halfway between their hinges: a double door."""
+    slack = SLACK * first.radius
+    middle = (first.center + second.center) / 2.0
+    gaps = [np.hypot(*(arc.ends - middle).T).min() for arc in (first, second)]
+    apart = np.hypot(*(first.center - second.center)) / 2.0
+    return bool(
+        max(abs(first.radius - second.radius), abs(apart - first.radius), *gaps) <= slack
+        and min(first.sweep, second.sweep) >= AJAR
+    )
 
 
 def usual_width(arcs: Sequence[Arc]) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Polyline
+from pilotage.geometry import Array
 from pilotage.maps.cells.enclosure import drop_outdoors
 from pilotage.maps.cells.free_space import (
     DecompositionSettings,
@@ -23,15 +23,6 @@ from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 
 SMALL, LARGE = 0.7, 1.4
 """A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
-
-DOOR_OFF = 0.5
-"""A chord is at a door if its middle is no farther off than this, in widths of the door."""
-
-DOOR_ALONG = 0.8
-"""And if it turns from the door by no more than an angle of this cosine."""
-
-DOOR_WIDTHS = (0.5, 2.2)
-"""And if it is so many times as wide: one leaf of two spans half of the opening."""
 
 NO_DOORS = "a drawing must show rooms with doors, this one has none: a door is a gap in a wall"
 
@@ -64,19 +55,18 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     out is too small, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
     """
     space = free_space(sketch, settings)
-    drawn = at_doors(space.tessellation, sketch.doors)
     named = holds_any(space.tessellation, sketch.labels if sketch.solids else ())
     regions = merge_pieces(  # section 4.1: merging
         space.tessellation,
         space.inside,
         named,
-        drawn,
+        space.drawn,
         settings.min_cell_area,
         solids_known=bool(sketch.solids),
     )
     if sketch.solids:
         regions = join_thresholds(space.tessellation, regions)
-        regions = join_corridors(space.tessellation, regions, named, drawn)
+        regions = join_corridors(space.tessellation, regions, named, space.drawn)
     regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, named, settings.min_cell_area)
     if not (regions >= 0).any():
@@ -95,29 +85,6 @@ def holds_any(tessellation: Tessellation, labels: Sequence[Label]) -> NDArray[np
     if labels:
         points = shapely.points([label.position for label in labels])
         found[shapely.STRtree(tessellation.pieces).query(points, predicate="intersects")[1]] = True
-    return found
-
-
-def at_doors(tessellation: Tessellation, doors: Sequence[Polyline]) -> NDArray[np.bool_]:
-    """Tell which chords are openings of doors that are drawn with a leaf or its swing, (n,).
-
-    Such a chord runs along the door, is about as wide, and no farther from it than a wall is thick.
-    """
-    found = np.zeros(len(tessellation.chords), dtype=bool)
-    if not doors or not len(found):
-        return found
-    ends = np.array([door.vertices[[0, -1]] for door in doors])
-    widths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    middles = shapely.points(tessellation.chords.mean(axis=1))
-    door, chord = shapely.STRtree(middles).query(
-        shapely.linestrings(ends), predicate="dwithin", distance=DOOR_OFF * widths
-    )
-    along = np.einsum(
-        "ki,ki->k", *(np.diff(lines, axis=1)[:, 0] for lines in (ends[door], tessellation.chords[chord]))
-    )
-    share = tessellation.widths[chord] / widths[door]
-    is_along = np.abs(along) >= DOOR_ALONG * widths[door] * tessellation.widths[chord]
-    found[chord[is_along & (share >= DOOR_WIDTHS[0]) & (share <= DOOR_WIDTHS[1])]] = True
     return found
 
 

@@ -24,6 +24,7 @@ class Openings:
     """The widths of what leads out of one region."""
 
     exits: NDArray[np.float64]  # to the outside
+    mouths: NDArray[np.float64]  # those of them that are no drawn doors
     doors: NDArray[np.float64]  # to other regions
 
 
@@ -74,7 +75,7 @@ def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Op
     exits = at_border & space.outside[space.tessellation.sides].any(axis=1)
     doors = at_border & (sides >= 0).all(axis=1)
     widths = space.tessellation.widths
-    return Openings(widths[exits], widths[doors])
+    return Openings(widths[exits], widths[exits & ~space.drawn], widths[doors])
 
 
 def has_front(space: FreeSpace, regions: NDArray[np.int64], number: int) -> bool:
@@ -103,11 +104,13 @@ def find_yards(space: FreeSpace, regions: NDArray[np.int64], *, gaping: bool, ap
 
 def does_gape(space: FreeSpace, members: NDArray[np.bool_], openings: Openings) -> bool:
     """Tell whether a region opens to the outside in its full width, and far wider than to any other."""
-    widest = openings.exits.max()
+    if len(openings.mouths) == 0:
+        return False
+    widest = openings.mouths.max()
     outline = shapely.length(shapely.union_all(space.tessellation.pieces[members]))
     return bool(
         widest >= YARD_MOUTH * space.tessellation.reaches[members].max()
-        and openings.exits.sum() >= YARD_SHARE * outline
+        and openings.mouths.sum() >= YARD_SHARE * outline
         and (len(openings.doors) == 0 or YARD_MOUTH * widest > openings.doors.max())
     )
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline, segments_of, signed_area
+from pilotage.maps.cells.drawn_doors import at_doors
 from pilotage.maps.cells.tessellation import Tessellation, tessellate
 from pilotage.maps.schematic import SchematicMap, diameter_of
 from pilotage.shape.simplify import Simplification, simplify_all
@@ -52,6 +53,7 @@ class FreeSpace:
     tessellation: Tessellation  # no chord is narrower than a gap
     inside: NDArray[np.bool_]  # (p,)
     outside: NDArray[np.bool_]  # (p,) what is neither is solid
+    drawn: NDArray[np.bool_]  # (n,) which chords are doors that are drawn
     gaps: Array = field(default_factory=lambda: np.empty((0, 2, 2)))  # (n, 2, 2) too narrow, closed
 
     @property
@@ -64,8 +66,8 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
     """Find the free space of a drawing (section 4.1).
 
     Of a filled plan it is what the contours enclose. Of strokes it is what cannot be reached from outside
-    without passing an opening narrower than `outer_opening`. Yards and solid blocks are still among it: what
-    tells them from rooms is how they hang together (`enclosure`).
+    without passing a drawn door or an opening narrower than `outer_opening`. Yards and solid blocks are still
+    among it: what tells them from rooms is how they hang together (`enclosure`).
 
     Raises NotEnclosedError if nothing is enclosed.
     """
@@ -78,7 +80,10 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
         within_contours(walls)
         if sketch.contours
         else within_strokes(
-            walls, diameter, replace(settings, gap=min(settings.gap, thickness_of(sketch.solids) / diameter))
+            walls,
+            diameter,
+            replace(settings, gap=min(settings.gap, thickness_of(sketch.solids) / diameter)),
+            sketch.doors,
         )
     )
     if sketch.solids:
@@ -111,7 +116,12 @@ def within_contours(strokes: tuple[Polyline, ...]) -> FreeSpace:
     points = shapely.point_on_surface(tessellation.pieces)
     held, _ = shapely.STRtree(rings).query(points, predicate="within")
     inside = np.bincount(held, minlength=len(points)) % 2 == 1
-    return FreeSpace(tessellation, inside, np.zeros(len(inside), dtype=bool))
+    return FreeSpace(
+        tessellation,
+        inside,
+        np.zeros(len(inside), dtype=bool),
+        np.zeros(len(tessellation.chords), dtype=bool),
+    )
 
 
 def within_solids(tessellation: Tessellation, solids: Sequence[Polyline]) -> NDArray[np.bool_]:
@@ -132,16 +142,21 @@ def thickness_of(solids: Sequence[Polyline]) -> float:
 
 
 def within_strokes(
-    strokes: tuple[Polyline, ...], diameter: float, settings: DecompositionSettings
+    strokes: tuple[Polyline, ...],
+    diameter: float,
+    settings: DecompositionSettings,
+    doors: Sequence[Polyline] = (),
 ) -> FreeSpace:
-    """Take what strokes enclose, with openings to the outside and gaps closed."""
+    """Take what strokes enclose, with openings to the outside, drawn doors and gaps closed."""
     walls = segments_of(strokes)
     framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
     is_open = framed.widths >= settings.gap * diameter
     closed = framed.with_chords(is_open)
-    outside = find_outside(closed, settings.outer_opening * diameter)
+    drawn = at_doors(closed, doors)
+    is_wide = (closed.widths >= settings.outer_opening * diameter) & ~drawn
+    outside = find_outside(closed, is_wide)
     slits = closed.reaches < settings.gap * diameter
-    return FreeSpace(closed, ~outside & ~slits, outside, framed.chords[~is_open])
+    return FreeSpace(closed, ~outside & ~slits, outside, drawn, framed.chords[~is_open])
 
 
 def frame_around(walls: Array, margin: float) -> Array:
@@ -152,11 +167,11 @@ def frame_around(walls: Array, margin: float) -> Array:
     return np.hstack([corners, np.roll(corners, -1, axis=0)])
 
 
-def find_outside(tessellation: Tessellation, wide: float) -> NDArray[np.bool_]:
-    """Flood from the frame through all openings at least this wide, (p,)."""
+def find_outside(tessellation: Tessellation, is_wide: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Flood from the frame through wide chords (n,), (p,)."""
     bounds = shapely.bounds(tessellation.pieces)
     box = shapely.total_bounds(tessellation.pieces)
     at_frame = np.isclose(bounds, box).any(axis=1)
-    passable = tessellation.with_chords(tessellation.widths >= wide)
+    passable = tessellation.with_chords(is_wide)
     parts = passable.connected(np.ones(len(bounds), dtype=bool))
     return np.isin(parts, parts[at_frame])
