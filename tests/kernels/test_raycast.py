@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point
 
-from pilotage.kernels.raycast import cast, cast_on_discs, cast_on_panes, cast_through
+from pilotage.kernels.raycast import cast, cast_on_discs, cast_on_panes, cast_through, first_met
 from pilotage.kernels.segment_grid import build_grid
 
 FAR = 1000.0
@@ -42,9 +42,10 @@ def passes_an_end(origin, direction, rows):
 
 def test_the_nearest_of_several_walls_is_met():
     walls = np.array([[4.0, -1.0, 4.0, 1.0], [2.0, -1.0, 2.0, 1.0], [-1.0, -1.0, -1.0, 1.0]])
-    ranges = cast(np.zeros((3, 2)), np.array([0.0, math.pi, math.pi / 2]), walls)
+    ranges, numbers = first_met(np.zeros((3, 2)), np.array([0.0, math.pi, math.pi / 2]), walls)
 
     np.testing.assert_allclose(ranges, [2.0, 1.0, math.inf], atol=1e-12)
+    assert numbers.tolist() == [1, 2, -1]
 
 
 def test_the_ends_of_a_wall_belong_to_it():

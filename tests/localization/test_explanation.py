@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from buildings import coarse, flat, scan_at
-from pilotage.geometry import Affine2, Polyline, Pose2
+from pilotage.geometry import Affine2, Polyline, Pose2, segments_of
 from pilotage.localization import Localizer, SensorModel, SensorSettings, Verdict
-from pilotage.localization.explanation import explain, first_met, walls_of
+from pilotage.localization.explanation import explain
 from pilotage.localization.global_search import Keyframe
 from pilotage.localization.sensor_model import thin_scan
 from pilotage.maps import SchematicMap, build_atlas
@@ -30,7 +30,7 @@ def model_of(building):
 
 def explained(seen, drawn, sketch_from_base=HERE):
     keyframe = keyframe_at(seen, Pose2(2.0, 1.5, 0.3))
-    return explain("here", sketch_from_base, (keyframe,), walls_of(drawn.strokes), model_of(drawn))
+    return explain("here", sketch_from_base, (keyframe,), segments_of(drawn.strokes), model_of(drawn))
 
 
 def test_walls_together_say_what_the_sensor_model_says():
@@ -38,7 +38,7 @@ def test_walls_together_say_what_the_sensor_model_says():
     model, keyframe = model_of(building), keyframe_at(building, pose)
     state = np.array([[pose.x, pose.y, pose.theta, 0.0, 0.0, 0.0]]).T
 
-    walls = explain("here", HERE, (keyframe,), walls_of(building.strokes), model).walls
+    walls = explain("here", HERE, (keyframe,), segments_of(building.strokes), model).walls
     told = sum(wall.log_ratio * wall.readings for wall in walls)
 
     settings = model.settings
@@ -82,17 +82,6 @@ def test_scale_and_stretch_of_the_estimate_count():
 
     assert len(explained(room, drawn, there).having(Verdict.SEEN)) == 4
     assert not explained(room, drawn, Affine2.from_state(20.0, 15.0, 0.3, 0.0, 0.0, 0.0)).having(Verdict.SEEN)
-
-
-def test_a_ray_meets_the_nearest_wall_and_goes_on_where_there_is_none():
-    walls = np.array([[2.0, -1.0, 2.0, 1.0], [1.0, -1.0, 1.0, 1.0]])
-    rays = np.array([[0.5, 0.0], [0.0, 1.0]])
-
-    ways, numbers = first_met(np.zeros(2), rays, walls)
-
-    assert ways.tolist() == [2.0, math.inf]
-    assert numbers[0] == 1
-    assert np.isinf(first_met(np.zeros(2), rays, np.empty((0, 4)))[0]).all()
 
 
 def test_the_localizer_explains_its_last_place():

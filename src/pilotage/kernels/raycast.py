@@ -24,21 +24,31 @@ def distance_along(x: float, y: float, beam_x: float, beam_y: float, segment: ND
 
 
 @njit(cache=True)
-def cast(
+def first_met(
     origins: NDArray[np.float64], directions: NDArray[np.float64], segments: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Measure from each origin (n, 2) along its direction (n,) [rad] to the nearest segment, (n,).
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Tell how far the nearest segment is from each origin (n, 2) along its direction (n,) [rad], and which.
 
-    Segments are rows x1, y1, x2, y2, (m, 4), their ends included. A beam that meets none goes on to inf; one
-    that runs along a segment passes it.
+    Returns ranges and row numbers, both (n,). Segments are rows x1, y1, x2, y2, (m, 4), their ends included.
+    A beam that meets none goes on to inf, and its number is -1; one that runs along a segment passes it.
     """
     ranges = np.full(len(directions), np.inf)
+    numbers = np.full(len(directions), -1)
     for i in range(len(directions)):
         beam_x, beam_y = math.cos(directions[i]), math.sin(directions[i])
         for j in range(len(segments)):
             distance = distance_along(origins[i, 0], origins[i, 1], beam_x, beam_y, segments[j])
-            ranges[i] = min(ranges[i], distance)
-    return ranges
+            if distance < ranges[i]:
+                ranges[i], numbers[i] = distance, j
+    return ranges, numbers
+
+
+@njit(cache=True)
+def cast(
+    origins: NDArray[np.float64], directions: NDArray[np.float64], segments: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Measure how far `first_met` goes from each origin, (n,)."""
+    return first_met(origins, directions, segments)[0]
 
 
 @njit(cache=True)

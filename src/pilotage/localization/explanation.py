@@ -1,11 +1,11 @@
 """Which drawn walls speak for a place and which against, as the sensor model weighs them.
 
-Each reading is set against the wall that it should show from the place. What a wall adds to the evidence of
-the place is the sum of its readings' log-ratios to the null model, so a user sees what the filter sees.
+Each reading of the last metres is set against the drawn wall that it faces from the place. The sensor model
+tells how probably it shows that wall, and what it adds to the evidence of the place: all readings together
+say what the filter computes.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage import kernels
-from pilotage.geometry import Affine2, Array, Polyline
+from pilotage.geometry import Affine2, Array
 from pilotage.localization.global_search import Keyframe
 from pilotage.localization.sensor_model import NO_RETURN_BEYOND, NO_RETURN_RATIO, SensorModel
 
@@ -35,7 +35,7 @@ class WallEvidence:
 
     ends: Array  # (2, 2) in the sketch frame, y up [drawing units]
     readings: int
-    log_ratio: float  # [nats] mean over its readings, against the null model
+    log_ratio: float  # [nats] a reading, on average: the likelihood over that of the null model
     shown: float  # [0..1] share of the readings that show it
     through: float  # [0..1] share of the readings that end behind it
 
@@ -78,13 +78,6 @@ class Explanation:
         return f"{len(self.walls)} {walls} in view from {self.place}: {', '.join(told)}."
 
 
-def walls_of(strokes: Sequence[Polyline]) -> Array:
-    """List the segments of strokes, each a wall, as rows x1, y1, x2, y2, (k, 4)."""
-    rings = [stroke.ring for stroke in strokes]
-    rows = [np.hstack([ring[:-1], ring[1:]]) for ring in rings]
-    return np.vstack(rows) if rows else np.empty((0, 4))
-
-
 def explain(
     place: str,
     sketch_from_base: Affine2,
@@ -92,9 +85,10 @@ def explain(
     walls: Array,
     model: SensorModel,
 ) -> Explanation:
-    """Set the readings of keyframes, the newest first, against the walls (k, 4) in view.
+    """Set the readings of keyframes, the newest first, against the walls in view.
 
-    The newest was taken at `sketch_from_base`; the earlier ones follow by registered motion.
+    `walls` are rows x1, y1, x2, y2 in the sketch frame, (k, 4) [drawing units]. The newest keyframe was taken
+    at `sketch_from_base`; the earlier ones follow by registered motion.
     """
     base_from_odom = keyframes[0].odom_from_base.inverse()
     seen = [
@@ -108,14 +102,18 @@ def explain(
 def _readings(
     sketch_from_base: Affine2, keyframe: Keyframe, walls: Array, model: SensorModel
 ) -> tuple[NDArray[np.intp], Array, Array, Array]:
-    """Return of each reading that faces a wall: the wall, e, the log-ratio, the probability of a hit."""
+    """Return of each reading its wall, e = log(predicted / measured), log-ratio and share of a hit, (m,) each.
+
+    Readings that face no wall are left out, and missing ones where none was to be expected.
+    """
     scan, visibility = keyframe.scan, kernels.visibility
     angles = scan.beams / visibility.HEADINGS * math.tau
     ahead = np.column_stack([np.cos(angles), np.sin(angles)]) @ sketch_from_base.linear.T
-    ways, numbers = first_met(sketch_from_base.translation, ahead, walls)
-    faces = np.isfinite(ways) & (ways > 0.0)
+    eyes = np.tile(sketch_from_base.translation, (len(angles), 1))
+    ways, numbers = kernels.raycast.first_met(eyes, np.arctan2(ahead[:, 1], ahead[:, 0]), walls)
+    faces = (numbers >= 0) & (ways > 0.0)
     numbers, levels, classes = numbers[faces], scan.levels[faces], scan.classes[faces]
-    log_predicted = np.log(ways[faces])
+    log_predicted = np.log(ways[faces] / np.hypot(ahead[faces, 0], ahead[faces, 1]))  # in metres
     returned = levels != visibility.NO_RETURN
     error = log_predicted - np.where(returned, levels * visibility.LOG_STEP, np.inf)
     middle = model.log_ratios.shape[1] // 2
@@ -127,25 +125,6 @@ def _readings(
     shown = np.where(returned, model.hit_shares[classes, columns], 0.0)
     counts = returned | near
     return numbers[counts], error[counts], log_ratio[counts], shown[counts]
-
-
-def first_met(eye: Array, directions: Array, walls: Array) -> tuple[Array, NDArray[np.intp]]:
-    """Find the first wall (k, 4) that rays (n, 2) from a point meet: the way in ray lengths, and which, (n,).
-
-    A ray that meets none goes on to inf.
-    """
-    if len(walls) == 0:
-        return np.full(len(directions), np.inf), np.zeros(len(directions), np.intp)
-    start, along = walls[:, :2] - eye, walls[:, 2:] - walls[:, :2]
-    ray_x, ray_y = directions[:, 0, np.newaxis], directions[:, 1, np.newaxis]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # eye + way * ray = start + share * along, solved by Cramer's rule
-        determinant = ray_x * along[:, 1] - ray_y * along[:, 0]
-        way = (start[:, 0] * along[:, 1] - start[:, 1] * along[:, 0]) / determinant
-        share = (start[:, 0] * ray_y - start[:, 1] * ray_x) / determinant
-        ways = np.where((way >= 0.0) & (share >= 0.0) & (share <= 1.0), way, np.inf)
-    nearest = ways.argmin(axis=1)
-    return ways[np.arange(len(directions)), nearest], nearest
 
 
 def _summed(

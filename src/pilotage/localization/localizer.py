@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pilotage.geometry import Array, Pose2
+from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.estimate import Estimate, summarize
-from pilotage.localization.explanation import Explanation, explain, walls_of
+from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import (
     SCANS,
     Keyframe,
@@ -169,7 +169,7 @@ class Localizer:
         if estimate is None:
             raise ValueError("an explanation needs at least one scan, got none")
         least = Simplification(self.settings.atlas.detail * self.atlas.sketch.diagonal)
-        walls = walls_of(simplify_all(self.atlas.sketch.strokes, least))
+        walls = segments_of(simplify_all(self.atlas.sketch.strokes, least))
         keyframes = choose_keyframes(self._window, SCANS)
         return explain(estimate.place, estimate.sketch_from_base, keyframes, walls, self._model)
 

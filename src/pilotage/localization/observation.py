@@ -8,8 +8,8 @@ from pilotage.perception import LaserScan
 from pilotage.shape import PartialShape, Simplification, simplify_all
 from pilotage.shape.corners import Corners, find_corners
 
-SURFACES = Simplification(min_relevance=0.08)
-"""[rad m] Simplification of what is seen: a right angle between sides of 10 cm has 0.08, and is kept."""
+CORNERS = Simplification(min_relevance=0.08)
+"""[rad m] Simplification before corners are sought: a right angle between sides of 10 cm has 0.08."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,6 +23,6 @@ class Observation:
 
 
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
-    """Take what a drawing can be compared with from a scan and what is perceived in it (base frame)."""
-    surfaces = simplify_all([shape.polyline for shape in shapes], SURFACES)
-    return Observation(thin_scan(scan), find_corners(surfaces), motion, scan.stamp)
+    """Take what is compared with a drawing from a scan and its perceived shapes, in the robot's frame."""
+    corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))
+    return Observation(thin_scan(scan), corners, motion, scan.stamp)
