@@ -98,11 +98,11 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         return []
     usual = usual_width(candidates)
     doors = []
-    wings = [arc for arc, _, leaves, _ in judged if leaves.any()]
     for arc, marks, leaves, walls in judged:
-        widest = usual * (GATE if any(meet(arc, other) for other in wings) else ALIKE)
-        like_others = usual / ALIKE <= arc.radius <= widest
-        if not like_others or not (leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)):
+        is_gate = usual * ALIKE < arc.radius <= usual * GATE and any(meet(arc, other) for other in leaved)
+        if not (is_gate or is_like(arc, usual)) or not (
+            leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)
+        ):
             continue
         closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
         if arc.sweep >= AJAR and leaves.all() and walls[0] == walls[1]:
@@ -110,10 +110,14 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         doors.append(Door(arc.center, arc.ends[closed], arc, marks))
     for arc, _ in ajar:
         leaf = shapely.LineString([arc.center, arc.ends[0]])
-        like_others = usual / ALIKE <= arc.radius <= usual * ALIKE
-        if like_others and not any(door.swing.contains(leaf) for door in doors):
+        if is_like(arc, usual) and not any(door.swing.contains(leaf) for door in doors):
             doors.append(Door(arc.center, arc.ends[1], arc, ()))
     return doors
+
+
+def is_like(arc: Arc, usual: float) -> bool:
+    """Tell whether an arc is about as wide as most doors."""
+    return usual / ALIKE <= arc.radius <= usual * ALIKE
 
 
 def meet(first: Arc, second: Arc) -> bool:

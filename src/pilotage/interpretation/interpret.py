@@ -79,20 +79,17 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     doors = find_doors(sheet, built, diagonal)
     left = without_doors(built, doors)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
+    painted = [
+        number
+        for number in unsaid
+        if number not in letters and (guessed_role(called[number]) or NOT_NAMED)[0] not in NO_WALLS
+    ]  # not only what is seen: a floor may be too faint for that
     walls = find_walls(
         seen,
         sheet,
         {number: role for number, (role, _) in guessed.items()},
         doors,
-        floors=find_floors(
-            [
-                sheet.marks[number]
-                for number in unsaid
-                if number not in letters
-                and (guessed_role(sheet.marks[number].names) or NOT_NAMED)[0] not in NO_WALLS
-            ],
-            paper.ground,
-        ),
+        floors=find_floors([sheet.marks[number] for number in painted], paper.ground),
         ground=paper.ground,
         diagonal=diagonal,
     )

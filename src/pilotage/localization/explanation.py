@@ -102,7 +102,7 @@ def explain(
 def _readings(
     sketch_from_base: Affine2, keyframe: Keyframe, walls: Array, model: SensorModel
 ) -> tuple[NDArray[np.intp], Array, Array, Array]:
-    """Return of each reading its wall, e = log(predicted / measured), log-ratio and share of a hit, (m,) each.
+    """Return of each reading its wall, e = log(predicted / measured), log-ratio, share of a hit; (m,) each.
 
     Readings that face no wall are left out, and missing ones where none was to be expected.
     """
