@@ -12,6 +12,7 @@ from pilotage.interpretation.floors import floor_edges
 from pilotage.interpretation.hatching import shut_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import TOUCHING, find_partitions
+from pilotage.interpretation.pens import by_style
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
     are_walls,
@@ -55,17 +56,8 @@ HOLDING = 0.75
 AT_DOOR = 0.25
 """A wall is beside a door if it is this near to its hinge, as a share of its width."""
 
-COLORFUL = 0.45
-"""A line is in a color if its channels differ by this much; ink in a photo is paler."""
-
 LONG = 0.15
 """A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
-
-THIN = 1.0 / 3.0
-"""A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
-
-A hairline is not: files have it where no width was chosen.
-"""
 
 EDGE = 0.0005
 """Lines that are nearer than this share of the drawing's diagonal are one."""
@@ -270,32 +262,6 @@ def black_lines(drawn: Drawn) -> Walls | None:
     )
     long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
-
-
-def by_style(
-    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role]
-) -> tuple[shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from those in a color, dashed ones, and thin ones not named walls."""
-    thin = THIN * usual_pen(seen, sheet)
-    main: list[shapely.Geometry] = []
-    marginal: list[shapely.Geometry] = []
-    for mark in seen:
-        pen = sheet.marks[mark.number].pen
-        if pen is not None and not mark.line.is_empty:
-            is_colored = max(pen.color) - min(pen.color) >= COLORFUL
-            is_thin = 0.0 < pen.width < thin and named.get(mark.number) is not Role.WALL
-            is_marginal = pen.dashed or is_colored or is_thin
-            (marginal if is_marginal else main).append(mark.line)
-    black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
-    return shapely.multilinestrings(black), shapely.multilinestrings(other)
-
-
-def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> float:
-    """Find the width of the pen that draws the middle of all ink, from the narrowest pen to the widest."""
-    pens = [(pen.width, mark.line.length) for mark in seen if (pen := sheet.marks[mark.number].pen)]
-    widths, lengths = np.array(sorted(pens)).reshape(-1, 2).T
-    ink = np.cumsum(widths * lengths)
-    return float(widths[np.searchsorted(ink, ink[-1] / 2.0)]) if len(ink) else 0.0
 
 
 def rings_of(solid: shapely.Geometry) -> list[shapely.LinearRing]:

@@ -1,0 +1,44 @@
+"""Tell by the pen which lines draw walls, and which rather furniture, thresholds or windows."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import shapely
+
+from pilotage.interpretation.paint import Seen, parts_of
+from pilotage.interpretation.sheet import Role, Sheet
+
+COLORFUL = 0.45
+"""A line is in a color if its channels differ by this much; ink in a photo is paler."""
+
+THIN = 1.0 / 3.0
+"""A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
+
+A hairline is not: files have it where no width was chosen.
+"""
+
+
+def by_style(
+    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role]
+) -> tuple[shapely.Geometry, shapely.Geometry]:
+    """Part lines in black or gray from those in a color, dashed ones, and thin ones not named walls."""
+    thin = THIN * usual_pen(seen, sheet)
+    main: list[shapely.Geometry] = []
+    marginal: list[shapely.Geometry] = []
+    for mark in seen:
+        pen = sheet.marks[mark.number].pen
+        if pen is not None and not mark.line.is_empty:
+            is_colored = max(pen.color) - min(pen.color) >= COLORFUL
+            is_thin = 0.0 < pen.width < thin and named.get(mark.number) is not Role.WALL
+            is_marginal = pen.dashed or is_colored or is_thin
+            (marginal if is_marginal else main).append(mark.line)
+    black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
+    return shapely.multilinestrings(black), shapely.multilinestrings(other)
+
+
+def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> float:
+    """Find the width of the pen that draws the middle of all ink, from the narrowest pen to the widest."""
+    pens = [(pen.width, mark.line.length) for mark in seen if (pen := sheet.marks[mark.number].pen)]
+    widths, lengths = np.array(sorted(pens)).reshape(-1, 2).T
+    ink = np.cumsum(widths * lengths)
+    return float(widths[np.searchsorted(ink, ink[-1] / 2.0)]) if len(ink) else 0.0
