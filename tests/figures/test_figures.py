@@ -129,9 +129,9 @@ def test_walls_in_view_are_colored_by_what_they_say():
     figure = path_figure(open_map(worlds.OFFICE.quick), [estimate(0)], explanation=Explanation("hall", walls))
 
     words = legend_of(figure)
-    assert "wall: seen where it is drawn" in words
+    assert "wall: seen where drawn" in words
     assert "wall: looked through" in words
-    assert "wall: something nearer is seen" not in words
+    assert "wall: hidden by something nearer" not in words
 
 
 def test_a_path_of_nothing_is_refused():

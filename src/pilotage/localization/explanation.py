@@ -24,8 +24,8 @@ FEWEST = 3
 class Verdict(Enum):
     """What the readings towards a wall say about the place."""
 
-    SEEN = "seen where it is drawn"
-    HIDDEN = "something nearer is seen"
+    SEEN = "seen where drawn"
+    HIDDEN = "hidden by something nearer"
     LOOKED_THROUGH = "looked through"
 
 
