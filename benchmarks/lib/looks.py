@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.lib.protocols import travel_of
 from pilotage.geometry import Pose2
-from pilotage.localization.global_search import WINDOW, Keyframe, append_keyframe
+from pilotage.localization.keyframes import WINDOW, Keyframe, append_keyframe
 from pilotage.localization.localizer import LocalizerSettings
 from pilotage.localization.observation import observe
 from pilotage.scan_matching import ScanMatcher

@@ -9,7 +9,7 @@ from buildings import coarse, flat, scan_at
 from pilotage.geometry import Affine2, Polyline, Pose2, segments_of
 from pilotage.localization import Localizer, SensorModel, SensorSettings, Verdict
 from pilotage.localization.explanation import explain
-from pilotage.localization.global_search import Keyframe
+from pilotage.localization.keyframes import Keyframe
 from pilotage.localization.sensor_model import thin_scan
 from pilotage.maps import SchematicMap, build_atlas
 from pilotage.perception import Odometry

@@ -10,7 +10,8 @@ import pytest
 from buildings import coarse, flat, readings_of, walk
 from pilotage.geometry import Pose2, Similarity2
 from pilotage.localization import Localizer, LocalizerSettings, Status, TrackSettings
-from pilotage.localization.global_search import append_keyframe, global_search
+from pilotage.localization.global_search import global_search
+from pilotage.localization.keyframes import append_keyframe
 from pilotage.localization.observation import observe
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
 from pilotage.localization.sensor_model import SensorModel

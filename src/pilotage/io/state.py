@@ -20,7 +20,7 @@ from pilotage.errors import FileError, PilotageError, shown
 from pilotage.geometry import Affine2, Homography, Polyline, Pose2
 from pilotage.io.files import read_bytes, replacing
 from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
-from pilotage.localization.global_search import Keyframe
+from pilotage.localization.keyframes import Keyframe
 from pilotage.localization.particles import Particles
 from pilotage.localization.sensor_model import SparseScan
 from pilotage.localization.state import LocalizerState

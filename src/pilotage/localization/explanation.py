@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pilotage import kernels
 from pilotage.geometry import Affine2, Array
-from pilotage.localization.global_search import Keyframe
+from pilotage.localization.keyframes import Keyframe
 from pilotage.localization.sensor_model import NO_RETURN_BEYOND, NO_RETURN_RATIO, SensorModel
 
 FEWEST = 3

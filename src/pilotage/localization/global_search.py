@@ -5,21 +5,17 @@ many first, costly tests on few last. Those that remain are refined where they s
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array, Pose2
+from pilotage.geometry import Array
+from pilotage.localization.keyframes import Keyframe, choose_keyframes, corners_in_base
 from pilotage.localization.motion_model import WALL_PENALTY, find_blocked
-from pilotage.localization.observation import Observation
 from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
 from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
-from pilotage.localization.sensor_model import SensorModel, SparseScan
-from pilotage.shape.corners import Corners
+from pilotage.localization.sensor_model import SensorModel
 
-WINDOW = 10.0
-"""[m] of travel that is searched for as one: over more, the proportions of a drawing change."""
 SCANS = 8
 """Scans of the window that are compared, evenly spaced."""
 KEPT = (6, 30)
@@ -30,26 +26,6 @@ MOVES = np.array([0.3, 0.3, math.radians(4.0), 0.08, 0.08, 0.08])
 """Standard deviations of a refining move: x, y [m], heading [rad], log scale, p, q."""
 
 
-@dataclass(frozen=True, slots=True)
-class Keyframe:
-    """A scan, where it was taken, and after how much travel."""
-
-    scan: SparseScan
-    corners: Corners  # in the frame of the robot [m]
-    odom_from_base: Pose2
-    travel: float  # [m]
-
-
-def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
-    """Add a keyframe after its motion, and drop those before the window."""
-    if not window:
-        return (Keyframe(seen.scan, seen.corners, Pose2.identity(), 0.0),)
-    last = window[-1]
-    travel = last.travel + math.hypot(seen.motion.x, seen.motion.y)
-    kept = tuple(one for one in window if travel - one.travel <= WINDOW)
-    return (*kept, Keyframe(seen.scan, seen.corners, last.odom_from_base @ seen.motion, travel))
-
-
 def global_search(
     window: tuple[Keyframe, ...], model: SensorModel, prior: Prior, count: int, rng: np.random.Generator
 ) -> Particles:
@@ -58,7 +34,7 @@ def global_search(
     `count` proposals are drawn from the prior, half of them where corners agree. The evidence is the mean
     likelihood ratio over the prior, so it includes the price of having tried many places.
     """
-    ours = _corners_in_base(window)
+    ours = corners_in_base(window)
     states = np.hstack(
         [
             draw_at_corners(ours, model.atlas, prior, count // 2, rng),
@@ -99,21 +75,6 @@ def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorMo
             scores -= WALL_PENALTY * find_blocked(then, later - then[:2], model.atlas)
         later = then[:2]
     return scores
-
-
-def choose_keyframes(window: tuple[Keyframe, ...], count: int) -> tuple[Keyframe, ...]:
-    """Take keyframes evenly spaced in order, the newest first."""
-    picked = np.unique(np.linspace(0, len(window) - 1, min(count, len(window))).round().astype(np.intp))
-    return tuple(window[index] for index in picked[::-1])
-
-
-def _corners_in_base(window: tuple[Keyframe, ...]) -> Corners:
-    """Gather the corners of all keyframes in the frame of the newest."""
-    base_from_odom = window[-1].odom_from_base.inverse()
-    gathered = window[-1].corners
-    for keyframe in window[:-1]:
-        gathered = gathered.joined(keyframe.corners.moved(base_from_odom @ keyframe.odom_from_base))
-    return gathered
 
 
 def _best(scores: Array, count: int) -> NDArray[np.intp]:

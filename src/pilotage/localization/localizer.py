@@ -9,13 +9,8 @@ import numpy as np
 from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
-from pilotage.localization.global_search import (
-    SCANS,
-    Keyframe,
-    append_keyframe,
-    choose_keyframes,
-    global_search,
-)
+from pilotage.localization.global_search import SCANS, global_search
+from pilotage.localization.keyframes import Keyframe, append_keyframe, choose_keyframes
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.observation import Observation, observe
 from pilotage.localization.particles import Particles, join
