@@ -62,9 +62,10 @@ def walk():
     return poses
 
 
-def readings_of(poses):
+def readings_of(poses, **scanner):
     """Take a scan at each pose; odometry is right but for its frame."""
     odom_from_world = Pose2(3.0, -2.0, 0.7)
     return [
-        (scan_at(pose, float(k)), Odometry(float(k), odom_from_world @ pose)) for k, pose in enumerate(poses)
+        (scan_at(pose, float(k), **scanner), Odometry(float(k), odom_from_world @ pose))
+        for k, pose in enumerate(poses)
     ]

@@ -269,3 +269,15 @@ def test_invalid_settings_are_rejected(changes, rule):
 def test_invalid_settings_of_tracks_are_rejected(changes, rule):
     with pytest.raises(ValueError, match=rule):
         TrackSettings(**changes)
+
+
+def test_turning_on_the_spot_tells_a_scanner_that_sees_all_around_nothing(atlas):
+    turning = [Pose2(*PATH[0].position, PATH[0].theta + math.radians(25.0) * k) for k in range(15)]
+    readings = readings_of(turning, fov=math.radians(359.0), beams=360)
+    localizer = Localizer(atlas, SMALL, start=in_file(PATH[0]))
+
+    run(localizer, readings[:1])
+    once = localizer.log_evidence
+    run(localizer, readings[1:])
+
+    assert abs(localizer.log_evidence - once) < 0.5

@@ -43,16 +43,17 @@ def global_search(
     )
     log_prior = -math.log(states.shape[1])
     chosen = choose_keyframes(window, SCANS)
+    weight = min(sum(one.news for one in window) / len(chosen), 1.0)
     for share, some in zip(KEPT, (chosen[:1], chosen[::2]), strict=True):
-        scores = log_evidence(states, some, model)
+        scores = log_evidence(states, some, model, weight)
         states = states[:, _best(scores, max(1, count // share))]
-    scores = log_evidence(states, chosen, model)
+    scores = log_evidence(states, chosen, model, weight)
     log_mass = Particles(states, scores + log_prior).log_mass
     for _ in range(ROUNDS):  # Metropolis: each state wanders to where it explains the window better
         moves = rng.standard_normal(states.shape) * MOVES[:, np.newaxis]
         moves[[X, Y]] *= np.exp(states[LOG_SCALE])
         tried = states + moves
-        tried_scores = log_evidence(tried, chosen, model)
+        tried_scores = log_evidence(tried, chosen, model, weight)
         taken = np.log(rng.random(len(scores))) < tried_scores - scores
         states = np.where(taken, tried, states)
         scores = np.where(taken, tried_scores, scores)
@@ -60,8 +61,13 @@ def global_search(
     return found.plus(log_mass - found.log_mass)
 
 
-def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel) -> Array:
-    """Sum the log-likelihood ratios of keyframes, the newest first, for states (6, n) of the newest, (n,)."""
+def log_evidence(
+    states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel, weight: float = 1.0
+) -> Array:
+    """Sum the log-likelihood ratios of keyframes, the newest first, for states (6, n) of the newest, (n,).
+
+    Each keyframe counts with this weight.
+    """
     base_from_odom = keyframes[0].odom_from_base.inverse()
     scores = np.zeros(states.shape[1])
     later = states[:2]
@@ -70,7 +76,7 @@ def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorMo
         then = states.copy()
         then[:2] += displacements(states, base_from_then.x, base_from_then.y)
         then[HEADING] += base_from_then.theta
-        scores += model.log_ratio(then, keyframe.scan)
+        scores += weight * model.log_ratio(then, keyframe.scan)
         if keyframe is not keyframes[0]:
             scores -= WALL_PENALTY * find_blocked(then, later - then[:2], model.atlas)
         later = then[:2]

@@ -12,6 +12,10 @@ from pilotage.shape.corners import Corners
 
 WINDOW = 10.0
 """[m] of travel that is searched for as one: over more, the proportions of a drawing change."""
+NEW_STEP = 0.5
+"""[m] from the places of all keyframes at which a scan counts in full."""
+NEW_TURN = math.radians(60.0)
+"""[rad] of a turn on the spot after which a scan of half a turn counts in full; one of a full turn never."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +26,7 @@ class Keyframe:
     corners: Corners  # in the frame of the robot [m]
     odom_from_base: Pose2
     travel: float  # [m]
+    news: float = 1.0  # [0..1] share of the scan that the keyframes before it did not show
 
 
 def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
@@ -31,12 +36,29 @@ def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Ke
     last = window[-1]
     travel = last.travel + math.hypot(seen.motion.x, seen.motion.y)
     kept = tuple(one for one in window if travel - one.travel <= WINDOW)
-    return (*kept, Keyframe(seen.scan, seen.corners, last.odom_from_base @ seen.motion, travel))
+    odom_from_base = last.odom_from_base @ seen.motion
+    news = news_at(odom_from_base, seen.view, kept)
+    return (*kept, Keyframe(seen.scan, seen.corners, odom_from_base, travel, news))
+
+
+def news_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...]) -> float:
+    """Return the share of a scan of `view` [rad] from a pose that no keyframe of a window showed, [0..1].
+
+    A drawing errs alike whenever the same walls are seen from the same place, so that counts once.
+    """
+    turn_rate = 2.0 * (1.0 - view / math.tau) / NEW_TURN
+    news = 1.0
+    for one in window:
+        motion = one.odom_from_base.inverse() @ odom_from_base
+        news = min(news, math.hypot(motion.x, motion.y) / NEW_STEP + turn_rate * abs(motion.theta))
+    return news
 
 
 def choose_keyframes(window: tuple[Keyframe, ...], count: int) -> tuple[Keyframe, ...]:
-    """Take keyframes evenly spaced in order, the newest first."""
-    picked = np.unique(np.linspace(0, len(window) - 1, min(count, len(window))).round().astype(np.intp))
+    """Take keyframes that stand for equal shares of the news, the newest first."""
+    news = np.cumsum([one.news for one in window])
+    picked = np.searchsorted(news, np.linspace(news[0], news[-1], min(count, len(window))) - 0.5)
+    picked = np.unique([*picked[:-1], len(window) - 1])
     return tuple(window[index] for index in picked[::-1])
 
 

@@ -23,8 +23,6 @@ from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
 from pilotage.shape import Simplification, simplify_all
 
-NEW_TURN = math.radians(60.0)
-"""[rad] of a turn on the spot after which a scan counts in full: beams repeat what was seen before."""
 FIT_MEMORY = 10
 """Number of keyframes over which the fit is averaged: 5 m."""
 BIRTH_COUNT = 2_000
@@ -63,10 +61,6 @@ class LocalizerSettings:
     def is_keyframe_due(self, motion: Pose2) -> bool:
         """Tell whether the robot has moved far enough since the last keyframe."""
         return math.hypot(motion.x, motion.y) >= self.step or abs(motion.theta) >= self.turn
-
-    def novelty(self, motion: Pose2) -> float:
-        """Return the weight of a keyframe after such a motion, [0..1]: after half a step it is half."""
-        return min(math.hypot(motion.x, motion.y) / self.step + abs(motion.theta) / NEW_TURN, 1.0)
 
 
 class Localizer:
@@ -197,8 +191,7 @@ class Localizer:
             particles, log_null = leave(
                 particles, log_null, settings.tracks.leaving * distance * math.exp(self._log_told)
             )
-        novelty = 1.0 if is_first else settings.novelty(motion)
-        log_ratio = novelty * self._model.log_ratio(particles.states, scan)
+        log_ratio = self._window[-1].news * self._model.log_ratio(particles.states, scan)
         particles = Particles(particles.states, particles.log_weights + log_ratio)
         particles, log_null, log_total = normalized(particles, log_null)
         self.log_evidence += log_total

@@ -1,5 +1,6 @@
 """What the robot saw at a keyframe, and how it moved to it; knows no drawing."""
 
+import math
 from dataclasses import dataclass
 
 from pilotage.geometry import Pose2
@@ -20,9 +21,11 @@ class Observation:
     corners: Corners  # in the frame of the robot [m]
     motion: Pose2  # since the last keyframe
     stamp: float  # [s]
+    view: float  # [rad] that the scan covers, at most a full turn
 
 
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
     """Take what is compared with a drawing from a scan and its perceived shapes, in the robot's frame."""
     corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))
-    return Observation(thin_scan(scan), corners, motion, scan.stamp)
+    view = min(len(scan) * abs(scan.angle_increment), math.tau)
+    return Observation(thin_scan(scan), corners, motion, scan.stamp, view)
