@@ -35,6 +35,27 @@ STROKE = 'stroke="black" fill="none"'
 
 
 @pytest.mark.parametrize(
+    ("body", "attributes", "labels", "strokes"),
+    [
+        (LINE, 'aria-label="Our flat"', [], 1),  # what the whole drawing is called
+        (f'<g aria-label="Plan">{LINE}{LINE}</g>', "", [], 2),
+        (f'<rect width="9" height="9" {STROKE} aria-label="Kitchen"/>', "", ["Kitchen"], 1),
+        (
+            f'<g {STROKE} aria-label="Bad"><rect width="9" height="9"/><text x="2" y="4">Bath</text></g>',
+            "",
+            ["Bath"],
+            1,
+        ),
+        (LINE + '<path aria-label="L T" d="M8 1V3H9ZM10 1H12V2Z"/>', "", ["L T"], 1),  # letters as outlines
+    ],
+)
+def test_labels_are_words_or_what_a_shape_is_called(tmp_path, body, attributes, labels, strokes):
+    sketch = drawing(tmp_path, body, attributes)
+    assert [label.text for label in sketch.labels] == labels
+    assert len(sketch.strokes) == strokes
+
+
+@pytest.mark.parametrize(
     ("body", "vertices", "closed"),
     [
         (LINE, [[1, 2], [3, 5]], False),

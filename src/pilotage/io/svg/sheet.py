@@ -1,7 +1,7 @@
 """Read an SVG file as a sheet: its marks and words in paint order, nothing understood."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +14,16 @@ from pilotage.io.svg.reader import FLATNESS, Shape, diagonal_of, flipped, read_c
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
 from pilotage.io.svg.style import leading_number, local_name
 from pilotage.io.svg.texts import read_texts
-from pilotage.io.svg.tree import Drawn
+from pilotage.io.svg.tree import OUTLINED, Drawn
+
+Labeled = Mapping[tuple[int, str], Sequence[Shape]]
+"""Shapes by the label that they bear, the number of what bears it first: of letters it is what they spell."""
 
 OPAQUE = 0.5
 """Paint that lets more than this through hides nothing."""
+
+LETTERS = 0.8
+"""Outlines of words have at least so many subpaths for each letter; a shape that is called so has fewer."""
 
 
 def read_svg_sheet(path: Path) -> Sheet:
@@ -30,12 +36,14 @@ def read_svg_sheet(path: Path) -> Sheet:
     with reading_values(path):
         walls = [shape for shape in shapes if shape.drawn.role is Role.WALL]
         tolerance = FLATNESS * diagonal_of(walls or shapes) if shapes else 0.0
-        marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance))
+        labels = labeled(shapes)
+        letters = {label: group for label, group in labels.items() if are_letters(label[1], group)}
+        marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance, letters))
         words = tuple(text for item in content.texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(
         marks,
-        words + tuple(outlined_texts(shapes)),
+        words + tuple(texts_of_labels(labels, letters, words)),
         bounds,
         y_down=True,
         metres_per_unit=content.metres_per_unit,
@@ -43,7 +51,7 @@ def read_svg_sheet(path: Path) -> Sheet:
     )
 
 
-def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:
+def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark]:
     """Flatten a shape; one without length gives none."""
     if tolerance == 0.0:
         return
@@ -58,7 +66,7 @@ def read_mark(shape: Shape, tolerance: float) -> Iterator[Mark]:
     names = drawn.names if stands(drawn) else (*drawn.names, "ignore")
     if drawn.notes.get(CLOSED) == ALWAYS:  # a door that never opens
         names = (*names, "wall")
-    if drawn.outlined is not None:
+    if drawn.outlined in letters:
         names = (*names, "text")
     yield Mark(outlines, pen, fill, names, drawn.groups, source_of(drawn))
 
@@ -91,18 +99,42 @@ def stands(item: Drawn) -> bool:
     return item.thing is not Thing.PERSON and not (item.thing is Thing.DOOR and opens)
 
 
-def outlined_texts(shapes: Sequence[Shape]) -> Iterator[Text]:
-    """Read the words that texts had before they were turned into outlines."""
-    letters: dict[tuple[int, str], list[Shape]] = {}
+def labeled(shapes: Sequence[Shape]) -> Labeled:
+    """Group the shapes that bear a label, or that an element with one holds."""
+    found: dict[tuple[int, str], list[Shape]] = {}
     for shape in shapes:
         if shape.drawn.outlined is not None:
-            letters.setdefault(shape.drawn.outlined, []).append(shape)
-    for (_, words), group in letters.items():
+            found.setdefault(shape.drawn.outlined, []).append(shape)
+    return found
+
+
+def are_letters(words: str, group: Sequence[Shape]) -> bool:
+    """Tell whether shapes are the outlines of words: paths, about one for each letter.
+
+    Labels also say what a drawing or a room of it is called.
+    """
+    outlines = [sum(isinstance(step, svgelements.Move) for step in shape.outline) for shape in group]
+    are_paths = all(local_name(shape.drawn.element.tag) == "path" for shape in group)
+    return are_paths and sum(outlines) >= LETTERS * len("".join(words.split()))
+
+
+def texts_of_labels(found: Labeled, letters: Labeled, written: Sequence[Text]) -> Iterator[Text]:
+    """Read the words that texts had before they were turned into outlines, and what single shapes are called.
+
+    A shape in which something is written needs no other name.
+    """
+    for label, group in found.items():
+        _, words = label
         boxes = np.array([shape.bounds for shape in group])
         (left, top), (right, bottom) = boxes[:, :2].min(axis=0).tolist(), boxes[:, 2:].max(axis=0).tolist()
         middle = (left + right) / 2.0, -(top + bottom) / 2.0
         drawn = group[0].drawn
-        yield Text(words, middle, bottom - top, 0.0, drawn.names, drawn.groups, f"outlines of {words!r}")
+        if label in letters:
+            yield Text(words, middle, bottom - top, 0.0, drawn.names, drawn.groups, f"outlines of {words!r}")
+        elif drawn.element.get(OUTLINED) and not any(
+            left <= text.position[0] <= right and -bottom <= text.position[1] <= -top for text in written
+        ):
+            yield Text(words, middle, 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
 
 
 def source_of(drawn: Drawn) -> str:
