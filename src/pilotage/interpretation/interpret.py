@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
+from pilotage.interpretation.bars import find_bars, opened, without_bars
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
@@ -77,7 +78,8 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
     doors = find_doors(sheet, built, diagonal)
-    left = without_doors(built, doors)
+    bars = [] if doors else find_bars(sheet, built, diagonal)
+    left = without_bars(without_doors(built, doors), bars, diagonal)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     painted = [
         number
@@ -121,7 +123,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         metres_per_unit=sheet.metres_per_unit,
         zones=find_zones(sheet, told),
         photo_from_sketch=sheet.photo_from_sheet,
-        doors=tuple(Polyline(np.array([door.hinge, door.latch])) for door in doors),
+        doors=(*(Polyline(np.array([door.hinge, door.latch])) for door in doors), *opened(bars)),
     )
     meanings = find_meanings(
         sheet,

@@ -1,0 +1,181 @@
+"""Find doors that are marked on walls without a gap: by bars along them, or by small squares."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from pilotage.geometry import Array, Polyline
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.pieces import on_grid
+from pilotage.interpretation.segments import Segments, segments_of
+from pilotage.interpretation.sheet import Sheet
+
+SIZES = (0.004, 0.12)
+"""Least and largest length of a bar as a share of the drawing's diagonal."""
+
+SLENDER = 0.25
+"""A bar is at most so wide, as a share of its length."""
+
+SQUARE = 0.7
+"""A square is at least so wide, as a share of its length."""
+
+LARGEST_SQUARE = 0.03
+"""Length of the largest square that marks a door, as a share of the drawing's diagonal."""
+
+NEAR = 0.002
+"""Lines that come this near lie on each other, as a share of the drawing's diagonal."""
+
+USUAL = 0.03
+"""Width of a door that a square marks, as a share of the drawing's diagonal."""
+
+BEYOND = 0.01
+"""Least distance beyond a bar at which its wall goes on, as a share of the drawing's diagonal."""
+
+LEVEL = np.sin(np.radians(5.0))
+"""A bar and its wall are parallel up to this."""
+
+ALIKE = 3
+"""So many marks of one style at least part rooms, where marks of this style are doors."""
+
+MOST = 0.5
+"""And so many of all marks of this style, as a share: what also stands within rooms is furniture."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bar:
+    """A mark on a wall that says where a door is."""
+
+    place: int  # of its mark, among those seen
+    ends: Array  # (2, 2), on the wall
+    width: float  # across the wall [drawing units]
+
+    @property
+    def length(self) -> float:
+        """[drawing units]."""
+        return float(np.hypot(*(self.ends[1] - self.ends[0])))
+
+    @cached_property
+    def across(self) -> Array:
+        """Unit vector that leads from one room to the other, (2,)."""
+        along = (self.ends[1] - self.ends[0]) / self.length
+        return np.array([-along[1], along[0]])
+
+
+def find_bars(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Bar]:
+    """Find the bars and squares that mark doors: alike, on walls, each between two rooms that are closed.
+
+    Where walls have gaps for doors, what lies on both sides of them is one room: there are no such marks.
+    """
+    shapes: dict[object, list[int]] = defaultdict(list)
+    for place, mark in enumerate(seen):
+        drawn = sheet.marks[mark.number]
+        shapes[drawn.pen, drawn.fill].append(place)
+    possible = {
+        style: bars
+        for style, places in shapes.items()
+        if len(places) >= ALIKE
+        and len(bars := [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]) >= ALIKE
+    }
+    found: list[Bar] = []
+    for style, bars in possible.items():
+        own = set(shapes[style])
+        others = [mark for place, mark in enumerate(seen) if place not in own]
+        parting = {bar.place: bar for bar in parting_bars(bars, others, diagonal)}
+        if len(parting) >= max(ALIKE, MOST * len(own)):
+            found.extend(parting.values())
+    return found
+
+
+def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
+    """Return the bar that a mark draws; of a square both that it may be; none for all else."""
+    mark = sheet.marks[seen[place].number]
+    if len(mark.outlines) != 1 or len(mark.outlines[0]) > 5:
+        return []
+    points = mark.outlines[0].vertices
+    box = shapely.get_coordinates(shapely.oriented_envelope(shapely.multipoints(points)))
+    sides = np.diff(box, axis=0)[:2] if len(box) == 5 else np.array([points[-1] - points[0], [0.0, 0.0]])
+    sides = sides[np.argsort(-np.hypot(*sides.T))]
+    length, width = np.hypot(*sides.T)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    if not SIZES[0] * diagonal <= length <= SIZES[1] * diagonal:
+        return []
+    is_square = mark.fill is not None and width >= SQUARE * length and length <= LARGEST_SQUARE * diagonal
+    if not is_square and width > SLENDER * length:
+        return []
+    wide = max(USUAL * diagonal / length, 1.0) if is_square else 1.0
+    return [
+        Bar(place, middle + np.array([[-0.5], [0.5]]) * wide * side, float(width))
+        for side in (sides if is_square else sides[:1])
+    ]
+
+
+def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], diagonal: float) -> list[Bar]:
+    """Keep the bars on walls between two rooms, told by the marks that are no bars."""
+    segments = segments_of(others)
+    on_wall = [bar for bar in bars if goes_on(bar, segments, diagonal)]
+    if len(on_wall) < ALIKE:
+        return []
+    grain = NEAR * diagonal / 2.0
+    pieces = on_grid(np.concatenate([segments.ends, *(bar.ends[None] for bar in on_wall)]), grain)
+    noded = shapely.union_all(shapely.multilinestrings(shapely.linestrings(pieces)), grid_size=grain)
+    faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
+    if not len(faces):
+        return []
+    tree = shapely.STRtree(faces)
+    kept = []
+    for bar in on_wall:
+        step = (bar.width / 2.0 + 2.0 * NEAR * diagonal) * bar.across
+        sides = shapely.points(bar.ends.mean(axis=0) + np.array([-step, step]))
+        held, rooms = tree.query(sides, predicate="within")
+        if len(held) == 2 and rooms[0] != rooms[1] and shapely.area(faces[rooms]).min() > bar.length**2:
+            kept.append(bar)
+    return kept
+
+
+def goes_on(bar: Bar, segments: Segments, diagonal: float) -> bool:
+    """Tell whether a wall goes on beyond both ends of a bar."""
+    along = (bar.ends[1] - bar.ends[0]) / bar.length
+    further = max(bar.length / 4.0, BEYOND * diagonal) * along
+    for point in (bar.ends[0] - further, bar.ends[1] + further):
+        near = segments.tree.query(
+            shapely.Point(point), predicate="dwithin", distance=bar.width / 2.0 + NEAR * diagonal
+        )
+        steps, lengths = segments.ends[near, 1] - segments.ends[near, 0], segments.lengths[near]
+        turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0])
+        if not ((turn <= LEVEL * lengths) & (lengths > bar.length / 2.0)).any():
+            return False
+    return True
+
+
+def without_bars(seen: Sequence[Seen], bars: Sequence[Bar], diagonal: float) -> list[Seen]:
+    """Take bars out of what is seen, and the wall below them: gaps are left."""
+    if not bars:
+        return list(seen)
+    gone = {bar.place for bar in bars}
+    cut = shapely.union_all(
+        [
+            shapely.buffer(
+                shapely.LineString(bar.ends), bar.width / 2.0 + NEAR * diagonal, cap_style="flat"
+            )
+            for bar in bars
+        ]
+    )
+    shapely.prepare(cut)
+    left = []
+    for place, mark in enumerate(seen):
+        if place not in gone and cut.intersects(mark.line):
+            parts = parts_of(shapely.difference(mark.line, cut))
+            line = shapely.multilinestrings(parts) if len(parts) else NOTHING
+            left.append(Seen(mark.number, line, mark.area, False))
+        elif place not in gone:
+            left.append(mark)
+    return left
+
+
+def opened(bars: Sequence[Bar]) -> tuple[Polyline, ...]:
+    """Return the openings that bars mark."""
+    return tuple(Polyline(bar.ends) for bar in bars)

@@ -1,0 +1,58 @@
+"""Doors that are marked on walls without a gap."""
+
+import numpy as np
+import pytest
+
+from flats import BLACK, OUTSIDE, RED, box, graph_of, stroke
+from pilotage.interpretation import Pen, Role, Sheet, interpret
+
+TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
+WALLS = tuple(stroke((x, 0), (x, 80)) for x in (25, 50, 75))
+BARS = {
+    "heavy": [stroke((x, 30), (x, 42), width=3.0) for x in (25, 50, 75)],
+    "squares": [box(x - 1, 30, x + 1, 32, fill=BLACK) for x in (25, 50, 75)],
+    "outlined": [box(x - 1, 30, x + 1, 42, pen=Pen(RED, 0.1)) for x in (25, 50, 75)],
+}
+
+
+def number_of_doors(marks):
+    return len(graph_of(marks, ()).gateways)
+
+
+@pytest.mark.parametrize("bars", BARS.values(), ids=BARS)
+def test_marks_on_walls_between_closed_rooms_are_doors(bars):
+    marks = (OUTSIDE, *WALLS, *bars)
+
+    assert not number_of_doors((OUTSIDE, *WALLS))
+    assert 3 == number_of_doors(marks)
+    assert {Role.DOOR} == {meaning.role for meaning in interpret(Sheet(marks)).meanings[-3:]}
+
+
+@pytest.mark.parametrize("bars", BARS.values(), ids=BARS)
+def test_turned_walls_are_marked_as_well(bars):
+    def turned(mark):
+        return stroke(
+            *(TURN @ mark.outlines[0].ring.T).T, width=mark.pen.width, color=mark.pen.color
+        )
+
+    marks = [mark for mark in (OUTSIDE, *WALLS, *bars) if mark.pen is not None]
+    assert (3 if len(marks) == 7 else 0) == number_of_doors([turned(mark) for mark in marks])
+
+
+def test_bars_on_outer_walls_are_windows():
+    windows = [stroke((x, 0), (x + 8, 0), width=3.0) for x in (5, 35, 60, 85)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS, *windows))
+
+
+def test_what_also_stands_in_rooms_is_furniture():
+    shelves = [stroke((x, y), (x, y + 12), width=3.0) for x in (10, 37, 60, 90) for y in (20, 50)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS, *BARS["heavy"], *shelves))
+
+
+def test_where_walls_have_gaps_no_bar_is_a_door():
+    gaps = [stroke((x, y), (x, y + 34)) for x in (25, 50, 75) for y in (0, 46)]
+    columns = [box(x - 1, 20, x + 1, 22, fill=BLACK) for x in (25, 50, 75)]
+
+    assert 3 == number_of_doors((OUTSIDE, *gaps, *columns))
