@@ -31,9 +31,7 @@ def test_marks_on_walls_between_closed_rooms_are_doors(bars):
 @pytest.mark.parametrize("bars", BARS.values(), ids=BARS)
 def test_turned_walls_are_marked_as_well(bars):
     def turned(mark):
-        return stroke(
-            *(TURN @ mark.outlines[0].ring.T).T, width=mark.pen.width, color=mark.pen.color
-        )
+        return stroke(*(TURN @ mark.outlines[0].ring.T).T, width=mark.pen.width, color=mark.pen.color)
 
     marks = [mark for mark in (OUTSIDE, *WALLS, *bars) if mark.pen is not None]
     assert (3 if len(marks) == 7 else 0) == number_of_doors([turned(mark) for mark in marks])

@@ -158,9 +158,7 @@ def without_bars(seen: Sequence[Seen], bars: Sequence[Bar], diagonal: float) -> 
     gone = {bar.place for bar in bars}
     cut = shapely.union_all(
         [
-            shapely.buffer(
-                shapely.LineString(bar.ends), bar.width / 2.0 + NEAR * diagonal, cap_style="flat"
-            )
+            shapely.buffer(shapely.LineString(bar.ends), bar.width / 2.0 + NEAR * diagonal, cap_style="flat")
             for bar in bars
         ]
     )

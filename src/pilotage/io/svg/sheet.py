@@ -57,10 +57,10 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
         return
     outlines = tuple(flipped(stroke) for stroke in flatten(shape.outline, tolerance))
     drawn = shape.drawn
-    pen = read_pen(drawn) if drawn.style.stroked and opacity(drawn, "stroke") >= OPAQUE else None
+    pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= OPAQUE else None
     fill = color_of(drawn, "fill") if drawn.style.filled and opacity(drawn, "fill") >= OPAQUE else None
     if pen is None and drawn.style.stroked and fill is None:
-        pen = read_pen(drawn)
+        pen = read_pen(shape)
     if not outlines or (pen is None and fill is None):
         return
     names = drawn.names if stands(drawn) else (*drawn.names, "ignore")
@@ -71,13 +71,19 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
     yield Mark(outlines, pen, fill, names, drawn.groups, source_of(drawn))
 
 
-def read_pen(drawn: Drawn) -> Pen:
-    """Read how a line is drawn, its width in the root's units."""
+def read_pen(shape: Shape) -> Pen:
+    """Read how a line is drawn, its width in the root's units.
+
+    A first dash as long as the whole line, with which pages let it appear, is none.
+    """
+    drawn, (left, top, right, bottom) = shape.drawn, shape.bounds
     matrix = drawn.page_from_element
     stretch = math.sqrt(abs(matrix.a * matrix.d - matrix.b * matrix.c))
     width = leading_number(drawn.style.values["stroke-width"], 1.0) * stretch
     dashes = drawn.style.values["stroke-dasharray"]
-    return Pen(color_of(drawn, "stroke"), width, dashed=any(char in "123456789" for char in dashes))
+    dashed = any(char in "123456789" for char in dashes)
+    dashed = dashed and leading_number(dashes, 0.0) * stretch < 2.0 * (right - left + bottom - top)
+    return Pen(color_of(drawn, "stroke"), width, dashed=dashed)
 
 
 def color_of(drawn: Drawn, name: str) -> Color:

@@ -29,6 +29,18 @@ NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)")
 CHOICE = re.compile(r"\s*(?:light-dark\(((?:[^(),]|\([^()]*\))+),.*\)|var\([^,()]*,(.*)\))\s*", re.DOTALL)
 """Functions of CSS that offer two paints."""
 
+MIX = re.compile(r"\s*color-mix\([^,]*,\s*((?:[^(),\s]|\([^()]*\))+)[^,]*,.*\)\s*", re.DOTALL)
+"""A function of CSS that mixes two paints: the first is taken for both."""
+
+VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
+"""A variable of CSS, and what stands in for it."""
+
+MAX_VALUE = 1000
+"""Letters of a value once variables are put in."""
+
+MAX_VARIABLES = 8
+"""So many variables may stand for each other."""
+
 
 def local_name(name: str) -> str:
     """Take the namespace off a tag or an attribute.
@@ -65,9 +77,26 @@ def resolved(paint: str) -> str:
     >>> resolved("light-dark(#ffffff, var(--dark))"), resolved("var(--ink, rgb(0, 0, 0))")
     ('#ffffff', 'rgb(0, 0, 0)')
     """
-    while match := CHOICE.fullmatch(paint):
-        paint = (match[1] or match[2] or "none").strip()
+    while match := CHOICE.fullmatch(paint) or MIX.fullmatch(paint):
+        paint = (match[1] or match[match.re.groups] or "none").strip()
     return paint
+
+
+def with_variables(value: str, variables: Mapping[str, str]) -> str:
+    """Put what they stand for in place of variables; one that nobody set and without a stand-in stays.
+
+    >>> with_variables("var(--wall, red)", {"--wall": "var(--ink)", "--ink": "blue"})
+    'blue'
+    """
+
+    def told(match: re.Match[str]) -> str:
+        return variables.get(match[1].lower(), match[0] if match[2] is None else match[2].strip())
+
+    for _ in range(MAX_VARIABLES):
+        if "var(" not in value or (new := VARIABLE.sub(told, value)) == value or len(new) > MAX_VALUE:
+            break
+        value = new
+    return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +196,7 @@ def read_rules(text: str) -> Iterator[tuple[Selector, Mapping[str, str]]]:
     """Read the rules of a style sheet that this reader understands."""
     for names, body in plain_blocks(without_comments(text)):
         for name in names.split(","):
-            selector = Selector.read(name)
+            selector = Selector.read("svg" if name.strip() == ":root" else name)
             if selector is not None:
                 yield selector, declarations(body)
 
@@ -214,10 +243,16 @@ class Style:
 
     def of_child(self, declared: Mapping[str, str]) -> "Style":
         """Resolve a child's style from what it declares."""
-        own = {name: declared[name] for name in INITIAL if declared.get(name, "inherit") != "inherit"}
+        variables = {name: value for name, value in declared.items() if name.startswith("--")}
+        known = {**self.values, **variables}
+        own = {
+            name: with_variables(declared[name], known)
+            for name in INITIAL
+            if declared.get(name, "inherit") != "inherit"
+        }
         opacity = leading_number(declared.get("opacity", "1"), 1.0)
         displayed = declared.get("display", "inline") != "none"
-        return Style({**self.values, **own}, self.opacity * opacity, self.displayed and displayed)
+        return Style({**known, **own}, self.opacity * opacity, self.displayed and displayed)
 
     @property
     def shown(self) -> bool:

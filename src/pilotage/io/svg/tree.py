@@ -9,6 +9,7 @@ from svgelements import Matrix, Viewbox
 
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
+from pilotage.io.svg.servers import with_plain_paints
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
@@ -89,7 +90,7 @@ def walk(root: Element) -> Iterator[Drawn]:
         here = replace(
             place,
             page_from_user=Matrix(declared.get("transform", "")) * place.page_from_user,
-            style=place.style.of_child(declared),
+            style=with_plain_paints(place.style.of_child(declared), by_id, sheet),
             role=role_of(element, place.role),
             thing=thing_of(element, place.thing),
             notes={**place.notes, **noted(element)},

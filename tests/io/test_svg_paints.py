@@ -1,0 +1,61 @@
+"""Paints of SVG that are no plain colors: gradients, patterns, variables, and dashes that are none."""
+
+import pytest
+
+from pilotage.io.svg.sheet import read_svg_sheet
+
+SERVERS = """<defs>
+<linearGradient id="dusk"><stop stop-color="#000"/><stop offset="1" style="stop-color:#fff"/></linearGradient>
+<radialGradient id="again" href="#dusk"/>
+<pattern id="wood"><g><rect width="9" height="9" class="ground"/></g>
+<path d="M0 0H9" fill="#000"/></pattern>
+<pattern id="hatch"><path d="M0 0L9 9" stroke="#102030" fill="none"/></pattern>
+<linearGradient id="glint"><stop stop-color="#fff"/><stop stop-opacity="0"/></linearGradient>
+<pattern id="round" href="#round"/><linearGradient id="bare"/>
+</defs><style>:root { --pale: #EEDDCC; --floor: var(--pale) } .ground { fill: var(--floor) }</style>"""
+
+
+def marks(tmp_path, body):
+    path = tmp_path / "drawing.svg"
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{SERVERS}{body}</svg>')
+    return read_svg_sheet(path).marks
+
+
+def channels(color):
+    return tuple(round(255 * channel) for channel in color)
+
+
+@pytest.mark.parametrize(
+    ("paint", "color"),
+    [
+        ("url(#dusk)", (128, 128, 128)),
+        ("url('#again')", (128, 128, 128)),
+        ("url(#wood)", (238, 221, 204)),
+        ("url(#hatch)", (16, 32, 48)),
+        ("url(#nowhere) #0000ff", (0, 0, 255)),
+        ("url(#round) #0000ff", (0, 0, 255)),
+        ("url(#nowhere)", (0, 0, 0)),
+        ("url(#bare)", (0, 0, 0)),
+        ("url(#glint)", (0, 0, 0)),
+        ("var(--floor)", (238, 221, 204)),
+        ("var(--unknown, var(--pale))", (238, 221, 204)),
+        ("color-mix(in srgb, var(--pale) 88%, black)", (238, 221, 204)),
+    ],
+)
+def test_one_color_stands_for_a_paint(tmp_path, paint, color):
+    for place in (
+        f'<rect width="9" height="9" fill="{paint}"/>',
+        f'<g fill="{paint}"><path d="M0 0H9V9"/></g>',
+    ):
+        (mark,) = marks(tmp_path, place)
+        assert channels(mark.fill) == color
+    (mark,) = marks(tmp_path, f'<path fill="none" stroke="{paint}" d="M0 0H9V9"/>')
+    assert channels(mark.pen.color) == color
+
+
+@pytest.mark.parametrize(
+    ("dashes", "dashed"), [("3 5", True), ("0", False), ("2000", False), ("60 9", False)]
+)
+def test_a_dash_as_long_as_its_line_is_none(tmp_path, dashes, dashed):
+    (mark,) = marks(tmp_path, f'<path d="M0 0H20" stroke="black" stroke-dasharray="{dashes}"/>')
+    assert mark.pen.dashed is dashed
