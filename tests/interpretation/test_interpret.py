@@ -62,6 +62,19 @@ def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
     assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, table)).cells)
 
 
+def test_dashed_lines_from_wall_to_wall_are_openings_if_others_are_drawn_through():
+    wall, edge = stroke((50, 0), (50, 50)), stroke((50, 50), (50, 80), dashed=True)
+    loose = stroke((50, 60), (50, 75), dashed=True)
+    rooms = [replace(mark, pen=Pen(BLACK, 1.0, dashed=True)) for mark in WITH_GAP]
+
+    assert are_joined((OUTSIDE, wall, edge))
+    assert 2 == len(graph_of((OUTSIDE, wall, edge)).cells)
+    assert Role.DOOR is interpret(Sheet((OUTSIDE, wall, edge))).meanings[2].role
+    assert Role.DOOR is not interpret(Sheet((OUTSIDE, wall, loose))).meanings[2].role
+    assert not are_joined((OUTSIDE, wall, replace(edge, names=("wall",))))
+    assert Role.DOOR not in {meaning.role for meaning in interpret(Sheet(tuple(rooms))).meanings}
+
+
 def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_rooms_if_they_are_long():
     threshold = [stroke((x, 30), (x, 42), width=0.1) for x in (49.5, 50.5)]
     table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), width=0.1)

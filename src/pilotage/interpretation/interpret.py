@@ -9,6 +9,7 @@ import shapely
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.bars import find_bars, opened, without_bars
+from pilotage.interpretation.dashed import find_dashed, opened_dashed
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
@@ -86,6 +87,8 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         for number in unsaid
         if number not in letters and (guessed_role(called[number]) or NOT_NAMED)[0] not in NO_WALLS
     ]  # not only what is seen: a floor may be too faint for that
+    dashed = find_dashed(sheet, seen, guessed, diagonal)
+    seen = [mark for mark in seen if mark.number not in dashed]
     walls = find_walls(
         seen,
         sheet,
@@ -123,7 +126,11 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         metres_per_unit=sheet.metres_per_unit,
         zones=find_zones(sheet, told),
         photo_from_sketch=sheet.photo_from_sheet,
-        doors=(*(Polyline(np.array([door.hinge, door.latch])) for door in doors), *opened(bars)),
+        doors=(
+            *(Polyline(np.array([door.hinge, door.latch])) for door in doors),
+            *opened(bars),
+            *opened_dashed(sheet, sorted(dashed)),
+        ),
     )
     meanings = find_meanings(
         sheet,
@@ -131,7 +138,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
             set(paper.sheets),
             letters,
-            named,
+            {**dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")), **named},
             built,
             left,
             doors,
