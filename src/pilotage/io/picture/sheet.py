@@ -10,6 +10,7 @@ from pilotage.interpretation import Mark, Pen, Sheet
 from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.light import flatten
 from pilotage.io.picture.photo import find_paper, is_photo, straighten
+from pilotage.io.picture.signs import uncovered
 from pilotage.io.picture.text import find_words
 from pilotage.io.picture.trace import Area, Line, trace
 from pilotage.io.picture.width import area_widths, depth_of, width_at
@@ -51,7 +52,7 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
         paper = straighten(working, corners)
         working, homography = paper.colors, to_full_size(paper.picture_from_plane, scale)
         corner = (paper.corner[0] * scale, paper.corner[1] * scale)
-    flat = flatten(working, is_photo=photo)
+    flat = uncovered(flatten(working, is_photo=photo))
     ink = find_ink(flat)
     middle = skeletonize(ink.mask)
     depth = depth_of(ink.mask)
