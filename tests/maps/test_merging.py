@@ -125,3 +125,35 @@ def test_a_closet_with_a_name_is_a_cell_however_small():
     assert "closet" in {
         cell.label for cell in thick([*CORRIDOR, *OFFICES, *DOORS, *closet], (name, office)).cells
     }
+
+
+def test_a_corridor_that_narrows_for_a_while_is_one_cell():
+    corridor = [(0, 0, 10, 2.4), (10, 0.4, 18, 1.9), (18, 0, 28, 2.4)]
+    rooms = [(1, 2.9, 8, 8), (19, 2.9, 27, 8), (4, 2.4, 5, 2.9), (22, 2.4, 23, 2.9)]
+
+    assert 3 == len(thick([*corridor, *rooms]).cells)
+
+
+def test_a_door_between_two_corridors_parts_them_in_a_wall_as_thick_as_half_of_it():
+    corridors = [(0, 0, 10, 2.2), (10.7, 0, 20, 2.2), (10, 0.4, 10.7, 1.8)]
+    rooms = [(1, 2.7, 8, 8), (12, 2.7, 19, 8), (4, 2.2, 5, 2.7), (15, 2.2, 16, 2.7)]
+
+    assert 4 == len(thick([*corridors, *rooms]).cells)
+
+
+@pytest.mark.parametrize("turns", range(4))
+def test_what_lies_before_a_door_is_of_the_corridor_however_small(turns):
+    rooms = [(20 * k, 2.5, 20 * k + 19, 22) for k in range(6)]
+    doors = [(20 * k + x, 2, 20 * k + x + 0.8, 2.5) for k in range(6) for x in (3, 15)]
+    graph = thick([turned(sides, turns) for sides in ((0, 0, 119, 2), *rooms, *doors)])
+    areas = sorted(cell.polygon.area for cell in graph.cells)
+
+    assert [238.0] + [19 * 19.5] * 6 == pytest.approx(areas, abs=1.5)
+
+
+def turned(sides, turns):
+    """A rectangle after quarter turns about the origin."""
+    for _ in range(turns):
+        left, bottom, right, top = sides
+        sides = (-top, left, -bottom, right)
+    return sides

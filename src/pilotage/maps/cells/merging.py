@@ -62,11 +62,18 @@ class Regions:
             self.chords_to[second].setdefault(first, []).append(int(chord))
 
     def strength(self, first: int, second: int, total: float, min_area: float) -> float:
-        """Tell how much the openings between two regions separate them; below 1 they are merged (4.1)."""
-        smaller = min(self.areas[first], self.areas[second])
-        least = min_area * total
+        """Tell how much the openings between two regions separate them; below 1 they are merged (4.1).
+
+        What is too small is merged in any case, first with that to which it is most open.
+        """
+        smaller, least = min(self.areas[first], self.areas[second]), min_area * total
+        opened = self.separation(first, second, smaller)
         if smaller < least and not (self.named[first] and self.named[second]):
-            return smaller / least
+            return min(opened, smaller / least)
+        return opened
+
+    def separation(self, first: int, second: int, smaller: float) -> float:
+        """Tell how much openings separate two regions, of which the smaller has this area."""
         chords = [chord for chord in self.chords_to[first][second] if not self.drawn[chord]]
         if not chords:
             return np.inf  # doors are drawn, and nothing else lies between
@@ -190,18 +197,18 @@ def join_corridors(
 ) -> NDArray[np.int64]:
     """Join the pieces of corridors: what leads on through an opening as wide as itself, without a door.
 
-    Where walls have a thickness a door shows as a narrowing of both sides; a corridor that turns, branches or
-    widens hardly narrows. A niche leads nowhere and stays what it is, and so does a wide room with a name.
-    Two names are never joined; `named` tells in which pieces (p,) one stands, and `drawn` which chords (n,)
-    are at doors that are drawn.
+    Where walls have a thickness a door shows as a narrowing of both sides, between jambs; a corridor that
+    turns, branches or widens hardly narrows, or goes on behind the opening as narrow as that. A niche leads
+    nowhere and stays what it is, and so does a wide room with a name. Two names are never joined; `named`
+    tells in which pieces (p,) one stands, and `drawn` which chords (n,) are at doors that are drawn.
     """
     reaches = np.zeros(len(regions))
     np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
     has_name = np.zeros(len(regions), dtype=bool)
     has_name[regions[named & (regions >= 0)]] = True
-    borders, openings, has_drawn = borders_of(tessellation, regions, drawn)
+    borders, openings, has_drawn, jambs = borders_of(tessellation, regions, drawn)
     narrow, wide = np.sort(reaches[borders], axis=1).T
-    is_door = (narrow >= NARROWING * openings) | has_drawn
+    is_door = ((narrow >= NARROWING * openings) & (jambs >= JAMBS)) | has_drawn
     if not is_door.any():
         return regions
     door = float(np.median(openings[is_door]))
@@ -221,17 +228,21 @@ def join_corridors(
 
 def borders_of(
     tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]
-) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_]]:
-    """List the pairs of regions with openings between them, (n, 2), and how wide these are together, (n,).
+) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_], Array]:
+    """List the pairs of regions with openings between them, (n, 2), and how wide the widest is, (n,).
 
-    Tell also whether all openings of a pair are doors that are drawn, (n,).
+    Tell also whether all openings of a pair are doors that are drawn, (n,), and how far free space widens
+    beside the one that most does, in its widths, (n,).
     """
     sides = regions[tessellation.sides]
     between = (sides >= 0).all(axis=1) & (sides[:, 0] != sides[:, 1])
     borders, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
-    openings = np.bincount(owner.ravel(), tessellation.widths[between], minlength=len(borders))
+    openings, jambs = np.zeros(len(borders)), np.zeros(len(borders))
+    np.maximum.at(openings, owner.ravel(), tessellation.widths[between])
     others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(borders))
-    return borders, openings.astype(np.float64), others == 0
+    widening = np.maximum(tessellation.jambs, tessellation.behind)[between]
+    np.maximum.at(jambs, owner.ravel(), widening)
+    return borders, openings, others == 0, jambs
 
 
 def drop_small(

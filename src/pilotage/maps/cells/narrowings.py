@@ -25,6 +25,9 @@ BEHIND_WALLS = 1e-2
 JAMB_DEPTH = 0.2
 """Distance beside an opening at which free space is measured, in its widths."""
 
+BEHIND = 0.7
+"""Distance beside an opening at which one stands behind the wall that it is in, in its widths."""
+
 JAMB_REACH = 2.0
 """Distance to either side up to which it is measured, in widths of the opening."""
 
@@ -117,11 +120,11 @@ def without_crossing(segments: Array, walls: Array, chords: Array) -> Array:
     return segments[sorted(kept)]
 
 
-def find_jambs(openings: Array, walls: Array) -> Array:
+def find_jambs(openings: Array, walls: Array, depth: float = JAMB_DEPTH) -> Array:
     """Measure how far free space widens beside each opening (n, 2, 2), in its widths, (n,) (section 4.1).
 
-    It is measured parallel to the opening on both sides, of which the narrower counts: 1 in the midst of a
-    corridor and at its mouth, more at a door.
+    It is measured parallel to the opening on both sides, so many of its widths away, of which the narrower
+    counts: 1 in the midst of a corridor and at its mouth, more at a door.
     """
     if len(openings) == 0:
         return np.empty(0)
@@ -131,8 +134,8 @@ def find_jambs(openings: Array, walls: Array) -> Array:
     lines = shapely.linestrings(walls.reshape(-1, 2, 2))
     tree = shapely.STRtree(lines)
     sides = []
-    for depth in (JAMB_DEPTH, -JAMB_DEPTH):
-        start = middle + depth * across
+    for side in (depth, -depth):
+        start = middle + side * across
         sides.append(free_distance(start, along, tree, lines) + free_distance(start, -along, tree, lines))
     return np.asarray(np.minimum(sides[0], sides[1]))
 

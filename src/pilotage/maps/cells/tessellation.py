@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.maps.cells.narrowings import find_chords, find_jambs
+from pilotage.maps.cells.narrowings import BEHIND, find_chords, find_jambs
 from pilotage.maps.cells.voronoi import GRID_STEPS, find_voronoi
 
 STEPS_A_NODE = 4.0
@@ -25,6 +25,7 @@ class Tessellation:
     chords: Array  # (n, 2, 2) each from wall to wall, or to where another chord ends on it
     widths: Array  # (n,)
     jambs: Array  # (n,) how much wider free space is just beside each chord, on its narrower side
+    behind: Array  # (n,) the same where one is through the wall that it is in
     sides: NDArray[np.int64]  # (n, 2) the pieces left and right of each chord
 
     def with_chords(self, kept: NDArray[np.bool_]) -> "Tessellation":
@@ -34,6 +35,7 @@ class Tessellation:
             chords=self.chords[kept],
             widths=self.widths[kept],
             jambs=self.jambs[kept],
+            behind=self.behind[kept],
             sides=self.sides[kept],
         )
 
@@ -68,7 +70,8 @@ def tessellate(walls: Array) -> Tessellation:
     np.maximum.at(reaches, holders, 2.0 * diagram.clearances[vertices])
     np.maximum.at(reaches, sides.ravel(), np.repeat(widths, 2))
     jambs = find_jambs(openings, diagram.segments)
-    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, sides)
+    behind = find_jambs(openings, diagram.segments, BEHIND)
+    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, behind, sides)
 
 
 def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]:
