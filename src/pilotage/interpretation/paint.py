@@ -45,15 +45,9 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
     areas = [area_of(mark) if mark.fill is not None else NOTHING for mark in marks]
     inked = [mark.pen is not None and difference(mark.pen.color, ground) >= FAINT for mark in marks]
     lines = [line_of(mark) if shown else NOTHING for mark, shown in zip(marks, inked, strict=True)]
-    covers = [cover_of(area, EDGE * diagonal) for area in areas]
-    tracks = [track_of(mark, ground) for mark in marks]
-    tree = shapely.STRtree(np.array([united(*pair) for pair in zip(lines, areas, strict=True)]))
-    hidden: dict[int, list[int]] = {}
-    for later, pair in enumerate(zip(covers, tracks, strict=True)):
-        if not (cover := united(*pair)).is_empty:
-            for earlier in tree.query(cover, predicate="intersects").tolist():
-                if earlier < later:
-                    hidden.setdefault(earlier, []).append(later)
+    covers = shapely.buffer(np.array(areas, dtype=object), -EDGE * diagonal, join_style="mitre")
+    tracks = tracks_of(marks, ground)
+    hidden = overlaps([united(*pair) for pair in zip(lines, areas, strict=True)], covers, tracks)
     seen = []
     for place, (number, mark) in enumerate(zip(numbers, marks, strict=True)):
         line, area = lines[place], areas[place]
@@ -61,17 +55,30 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
             area = NOTHING
         above = hidden.get(place, [])
         if above:
-            cover = shapely.union_all([covers[later] for later in above])
-            erased = shapely.union_all([tracks[later] for later in above if not inked[later]])
-            area = shapely.difference(area, shapely.union(cover, erased))
-            over = [hidden_by(marks[later], tracks[later], mark, line) for later in above if inked[later]]
-            wide = [tracks[later] for later in above if not inked[later] and covers_line(marks[later], mark)]
-            line = shapely.difference(line, shapely.union_all([cover, *wide]))
-            line = shapely.difference(line, shapely.union_all(over)) if over else line
+            erasers = [later for later in above if not inked[later]]
+            area = without(area, [*covers[above], *tracks[erasers]])
+            colored = [(marks[later], tracks[later]) for later in above if inked[later]]
+            wide = [tracks[later] for later in erasers if covers_line(marks[later], mark)]
+            over = hidden_by(colored, mark, line)
+            line = without(without(line, [*covers[above], *wide]), over)
         if not (line.is_empty and area.is_empty):
             whole = not above or bool(np.isclose(line.length, lines[place].length, rtol=1e-6))
             seen.append(Seen(number, line, area, whole))
     return seen
+
+
+def overlaps(
+    shapes: Sequence[shapely.Geometry], covers: NDArray[np.object_], tracks: NDArray[np.object_]
+) -> dict[int, list[int]]:
+    """List for each mark, given what it paints, the later ones that may hide it by a fill or a line."""
+    tree = shapely.STRtree(np.array(shapes))
+    hidden: dict[int, list[int]] = {}
+    for later, pair in enumerate(zip(covers, tracks, strict=True)):
+        if not (cover := united(*pair)).is_empty:
+            for earlier in tree.query(cover, predicate="intersects").tolist():
+                if earlier < later:
+                    hidden.setdefault(earlier, []).append(later)
+    return hidden
 
 
 def united(first: shapely.Geometry, second: shapely.Geometry) -> shapely.Geometry:
@@ -101,19 +108,30 @@ def area_of(mark: Mark) -> shapely.Geometry:
     return polygons_of(areas[0])
 
 
-def cover_of(area: shapely.Geometry, edge: float) -> shapely.Geometry:
-    """Return what a mark's fill hides: its area up to its edge."""
-    return shapely.buffer(area, -edge, join_style="mitre") if not area.is_empty else NOTHING
+def tracks_of(marks: Sequence[Mark], ground: Color) -> NDArray[np.object_]:
+    """Return where lines lie that hide what is below: those that cannot be seen, and those in a color."""
+    hiding = [
+        number
+        for number, mark in enumerate(marks)
+        if mark.pen is not None
+        and mark.pen.width > 0.0
+        and (
+            max(mark.pen.color) - min(mark.pen.color) >= UNLIKE or difference(mark.pen.color, ground) < FAINT
+        )
+    ]
+    tracks = np.full(len(marks), NOTHING, dtype=object)
+    lines = np.array([line_of(marks[number]) for number in hiding], dtype=object)
+    widths = np.array([pen.width for number in hiding if (pen := marks[number].pen) is not None])
+    tracks[hiding] = shapely.buffer(lines, widths / 2.0, cap_style="flat", join_style="mitre")
+    return tracks
 
 
-def track_of(mark: Mark, ground: Color) -> shapely.Geometry:
-    """Return where a line lies that hides what is below: one that cannot be seen, or one in a color."""
-    if mark.pen is None or mark.pen.width == 0.0:
-        return NOTHING
-    is_colored = max(mark.pen.color) - min(mark.pen.color) >= UNLIKE
-    if not is_colored and difference(mark.pen.color, ground) >= FAINT:
-        return NOTHING
-    return shapely.buffer(line_of(mark), mark.pen.width / 2.0, cap_style="flat", join_style="mitre")
+def without(shape: shapely.Geometry, covers: Sequence[shapely.Geometry]) -> shapely.Geometry:
+    """Take away what is covered, if anything covers."""
+    if shape.is_empty:
+        return shape
+    covering = [cover for cover in covers if not cover.is_empty]
+    return shapely.difference(shape, shapely.union_all(covering)) if covering else shape
 
 
 def covers_line(later: Mark, earlier: Mark) -> bool:
@@ -124,18 +142,33 @@ def covers_line(later: Mark, earlier: Mark) -> bool:
 
 
 def hidden_by(
-    later: Mark, track: shapely.Geometry, earlier: Mark, line: shapely.Geometry
-) -> shapely.Geometry:
-    """Return what a line in a color hides of a line: where it runs along it, and not where it crosses it."""
-    if later.pen is None or earlier.pen is None or track.is_empty or not covers_line(later, earlier):
-        return NOTHING
-    if difference(later.pen.color, earlier.pen.color) < UNLIKE:
-        return NOTHING
-    pieces = parts_of(shapely.line_merge(shapely.intersection(line, track)))
-    long = pieces[shapely.length(pieces) > ALONG * later.pen.width]
-    if not len(long):
-        return NOTHING
-    return shapely.buffer(shapely.union_all(long), later.pen.width / 2.0, cap_style="flat")
+    later: Sequence[tuple[Mark, shapely.Geometry]], earlier: Mark, line: shapely.Geometry
+) -> list[shapely.Geometry]:
+    """Return what lines in a color hide of a line: where they run along it, and not where they cross it."""
+    found: list[shapely.Geometry] = []
+    pen, length = earlier.pen, line.length
+    if pen is None:
+        return found
+    wide = [
+        (mark.pen.width, track)
+        for mark, track in later
+        if mark.pen is not None
+        and length > ALONG * mark.pen.width
+        and not track.is_empty
+        and covers_line(mark, earlier)
+        and difference(mark.pen.color, pen.color) >= UNLIKE
+    ]
+    if not wide:
+        return found
+    widths = np.array([width for width, _ in wide])
+    common = shapely.intersection(line, np.array([track for _, track in wide], dtype=object))
+    along = np.flatnonzero(shapely.length(common) > ALONG * widths)
+    for merged, width in zip(shapely.line_merge(common[along]), widths[along], strict=True):
+        pieces = parts_of(merged)
+        long = pieces[shapely.length(pieces) > ALONG * width]
+        if len(long):
+            found.append(shapely.buffer(shapely.union_all(long), width / 2.0, cap_style="flat"))
+    return found
 
 
 def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:

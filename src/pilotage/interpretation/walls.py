@@ -129,7 +129,7 @@ class Drawn:
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
         edges = floor_edges(self.floors, walls, thickness, gap)
-        lines = shapely.union(self.lines, edges)
+        lines = shapely.multilinestrings(np.concatenate([parts_of(self.lines), parts_of(edges)]))
         parting = find_partitions(lines, walls, self.doors, self.door_width or gap)
         return shapely.union(parting, edges)
 
