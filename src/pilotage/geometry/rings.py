@@ -11,8 +11,8 @@ def signed_area(ring: Array) -> float:
     >>> signed_area(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]]))
     1.0
     """
-    x, y = (ring - ring[0]).T
-    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2.0
+    x, y = (ring - ring[0]).T  # the first and the last edge meet in 0, and add nothing
+    return float(np.sum(x[:-1] * y[1:] - y[:-1] * x[1:])) / 2.0
 
 
 def fit_circle(points: Array) -> tuple[Array, float]:

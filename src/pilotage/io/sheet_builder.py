@@ -144,9 +144,10 @@ def outline_through(points: ArrayLike, *, closed: bool = False) -> Polyline | No
         return None
     if len(vertices) == 2:  # most shapes of large drawings
         return None if (vertices[0] == vertices[1]).all() else Polyline(vertices)
-    grain = SAME_POINT * float(np.ptp(vertices, axis=0).max())
-    steps = np.abs(np.diff(vertices, axis=0)).max(axis=1)
-    vertices = vertices[np.concatenate([[True], steps > grain])]
+    grain = SAME_POINT * float((vertices.max(axis=0) - vertices.min(axis=0)).max())
+    moves = np.abs(vertices[1:] - vertices[:-1]).max(axis=1) > grain
+    if not moves.all():
+        vertices = vertices[np.concatenate([[True], moves])]
     if len(vertices) > 2 and np.abs(vertices[0] - vertices[-1]).max() <= grain:
         vertices, closed = vertices[:-1], True
     if len(vertices) < 2:
