@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
+from pilotage.io.picture import sheet_of
 from pilotage.io.picture.signs import uncovered
 
 RED, GREEN, FLOOR = (150, 30, 40), (0, 140, 95), (138, 199, 159)
@@ -86,3 +87,19 @@ def test_a_gray_picture_stays_as_it_is():
     colors = np.repeat(shades, 3, axis=2)
 
     assert uncovered(colors) is colors
+
+
+def test_arrows_in_a_color_are_no_walls_but_walls_in_a_color_are():
+    arrow = [(450, 380), (450, 560)]
+    walls, both = Image.new("RGB", (1200, 900), (255, 255, 255)), []
+    ImageDraw.Draw(walls).rectangle([200, 150, 1000, 750], outline=(15, 18, 18), width=7)
+    for color in (None, GREEN):
+        picture = walls.copy()
+        if color is not None:
+            ImageDraw.Draw(picture).line(arrow, fill=color, width=7)
+        both.append(len(sheet_of(np.asarray(picture, dtype=np.float32) / np.float32(255.0)).marks))
+    colored = Image.new("RGB", (1200, 900), (255, 255, 255))
+    ImageDraw.Draw(colored).rectangle([200, 150, 1000, 750], outline=RED, width=7)
+
+    assert both[0] == both[1] > 0
+    assert sheet_of(np.asarray(colored, dtype=np.float32) / np.float32(255.0)).marks

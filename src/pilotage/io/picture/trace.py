@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
-from pilotage.io.picture.colors import DARK, brightest, fat_ink, hue_of
+from pilotage.io.picture.colors import COLORED, DARK, brightest, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
 from pilotage.io.picture.skeleton import straightened, trace_runs
 from pilotage.io.picture.width import AreaWidths, width_at
@@ -21,6 +21,12 @@ DOORS = (0.01, 0.12)
 
 RIM = 2
 """Ink is blurred over so many pixels."""
+
+MOSTLY = 0.5
+"""Walls are black or gray if this share of thin ink is."""
+
+BLURRED = 0.2
+"""The rim of ink in a color is gray, too, less than this share of it."""
 
 STAIR = 0.8
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
@@ -59,12 +65,29 @@ def trace(
     thin = (ink & ~rimmed(grounds)) | (black & ~grounds)
     for color in fat:
         thin &= ~rimmed(color)
+    thin &= ~free_signs(ink, thin, flat)
     lines = []
     for points in lines_of(thin, ink, pen_width):
         rows, columns = pixels_along(points, ink.shape)
         broad = float(np.median(width_at(depth[rows, columns])))
         lines.append(Line(points, broad, color_of(flat[rows, columns])))
     return [area for color in fat for area in areas_of(color, flat)], lines
+
+
+def free_signs(ink: Mask, thin: Mask, flat: NDArray[np.float32]) -> Mask:
+    """Mark ink in colors that touches no black or gray, where most thin ink is that: arrows of routes."""
+    from skimage.measure import label
+
+    lightest, darkest = brightest(flat), 1.0 - brightest(1.0 - flat)
+    plain = ink & (lightest - darkest < COLORED * (1.0 - darkest))
+    if np.count_nonzero(plain & thin) < MOSTLY * np.count_nonzero(thin):
+        return np.zeros_like(ink)
+    parts = label(ink, connectivity=2)
+    total = np.bincount(parts.ravel())
+    grays = np.bincount(parts[plain], minlength=len(total))
+    free = grays < BLURRED * total
+    free[0] = False
+    return np.asarray(free[parts])
 
 
 def lines_of(thin: Mask, ink: Mask, pen_width: float) -> list[Array]:
