@@ -13,8 +13,6 @@ from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from pilotage.geometry import Array
 from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, join, weighted_sum
@@ -149,6 +147,9 @@ def _mean_log_scale(particles: Particles) -> float:
 
 def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, NDArray[np.intp]]:
     """Label the connected components of the kept blocks, -1 for the others; `keys` (n,) are sorted."""
+    from scipy.sparse import coo_matrix  # a quarter of a second that commands that do not localize are spared
+    from scipy.sparse.csgraph import connected_components
+
     labels = np.full(len(keys), -1, dtype=np.intp)
     chosen = keys[kept]
     sectors, rows, columns = chosen % SECTORS, chosen // SECTORS % ROWS, chosen // SECTORS // ROWS
