@@ -8,7 +8,7 @@ from pathlib import Path
 from playwright.sync_api import Browser, Locator, Page, expect
 
 PICTURES = os.environ.get("TABLE_PICTURES")
-"""Folder in which the pictures of the journeys are kept; without it they are taken and dropped."""
+"""Folder in which the pictures of the journeys are kept; without it none are taken."""
 
 PATIENCE_MS = 15_000
 """The machine may be busy with other tests."""
@@ -89,9 +89,9 @@ class Sheet:
         return box["x"] + left + scale * x, box["y"] + top + scale * y
 
     def shot(self, name: str) -> None:
-        """Take a picture, and keep it where the environment says so."""
-        path = Path(PICTURES, f"table-{name}.png") if PICTURES else None
-        self.page.screenshot(path=path)
+        """Take a picture if the environment says where to keep it."""
+        if PICTURES:
+            self.page.screenshot(path=Path(PICTURES, f"table-{name}.png"))
 
     @property
     def summary(self) -> Locator:
