@@ -7,6 +7,7 @@ import pytest
 from hypothesis import settings
 
 from pilotage.cli import main
+from pilotage.maps import atlas
 
 collect_ignore = ["io/bags/record_with_rosbag.py"]  # runs on a Python that has the rosbag of ROS 1
 
@@ -17,6 +18,10 @@ settings.register_profile(
     derandomize=True,  # the same code gives the same answer
 )
 settings.load_profile("patient")
+
+
+TABLES = 16
+"""So many range tables are kept, 6 MB each."""
 
 
 class Outcome(NamedTuple):
@@ -37,3 +42,21 @@ def pilotage(monkeypatch, capsys):
         return Outcome(caught.value.code or 0, captured.out, captured.err)
 
     return call
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _one_range_table_of_each_drawing():
+    """Look around once on drawings on which many tests drive: it is most of what a drive costs to begin."""
+    look_around, tables = atlas.build_range_table, {}
+
+    def kept(sketch, settings):
+        seen = sketch.bounds, sketch.segments.tobytes(), settings
+        if seen not in tables:
+            tables[seen] = look_around(sketch, settings)
+            if len(tables) > TABLES:
+                del tables[next(iter(tables))]
+        return tables[seen]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(atlas, "build_range_table", kept)
+        yield
