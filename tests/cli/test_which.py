@@ -29,7 +29,7 @@ def test_the_right_building_comes_first(pilotage, tmp_path):
         worlds.OFFICE.careful,
         broken,
         "--travel",
-        "12",
+        "6",
         "--workers",
         "1",
     )
@@ -52,7 +52,7 @@ def test_a_mirrored_drawing_is_told(pilotage, tmp_path, monkeypatch):
         f'{content[:opening]}<g transform="scale(-1,1)">{content[opening:].replace("</svg>", "</g></svg>")}',
         encoding="utf-8",
     )
-    lines = pilotage("which", flipped, worlds.LOG, "--mirrored", "--travel", "12").out.splitlines()
+    lines = pilotage("which", flipped, worlds.LOG, "--mirrored", "--travel", "6").out.splitlines()
 
     assert 2 == len(lines)
     assert lines[0].endswith("flipped.svg, mirrored")

@@ -99,6 +99,7 @@ def test_by_a_drawing_of_another_building_no_goal_is_ever_reached(lost_in_anothe
 def test_a_rectangular_robot_drives_through_the_office_and_touches_nothing(degrees):
     settings = replace(
         SHORT,
+        localizer=reduced(SHORT.localizer, 1 / 4),
         navigator=replace(SHORT.navigator, radius=0.22, length=0.7, time_limit=240.0),
         simulator=SimulatorSettings(
             BodySettings(radius=0.22, length=0.7),

@@ -1,6 +1,7 @@
 """The map is corrected while a robot drives, and the robot stays on it."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from pilotage.localization import LocalizerSettings
 from pilotage.maps import build_atlas
 from pilotage.navigation import NavigatorSettings
 from pilotage.perception import Reading
+from pilotage.ranking.evidence import reduced
 from pilotage.ros.correcting import Correcting
 from pilotage.ros.node import Node, Quality
 from pilotage.ros.robot import LiveRobot, Topics
@@ -132,7 +134,7 @@ CORRECTED = corrected_frame()
 
 @pytest.mark.slow
 def test_a_corrected_map_is_published_and_scans_lie_on_it():
-    chosen = Settings()
+    chosen = replace(Settings(), localizer=reduced(LocalizerSettings(), 1 / 4))
     atlas = build_atlas(open_map(worlds.OFFICE.quick), chosen.localizer.atlas)
     simulator = put_down(open_world(worlds.OFFICE.world), None, np.random.default_rng(0), chosen.simulator)
     robot = DdsRobot(Node(191), simulator)

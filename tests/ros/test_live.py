@@ -2,22 +2,24 @@
 
 import itertools
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from benchmarks.lib.dds_robot import TWIST_TYPE, DdsRobot, run_together
 
-from pilotage import Settings, open_map, open_world, worlds
+from pilotage import LocalizerSettings, Settings, open_map, open_world, worlds
 from pilotage.drives.loop import put_down
 from pilotage.io.bags import outgoing
 from pilotage.maps import build_atlas
+from pilotage.ranking.evidence import reduced
 from pilotage.ros.node import Node, Quality
 from pilotage.ros.robot import LiveRobot, Topics
 from pilotage.ros.session import Session
 
 pytestmark = pytest.mark.slow
 DOMAINS = itertools.count(100)
-SETTINGS = Settings()
+SETTINGS = replace(Settings(), localizer=reduced(LocalizerSettings(), 1 / 4))
 
 
 @pytest.fixture(scope="module")

@@ -3,16 +3,18 @@
 import json
 import socket
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from benchmarks.lib.dds_robot import DdsRobot, run_together
 from rosbags.typesys import Stores, get_typestore
 
-from pilotage import Pose2, Settings, Twist, open_map, open_world, worlds
+from pilotage import LocalizerSettings, Pose2, Settings, Twist, open_map, open_world, worlds
 from pilotage.drives.loop import put_down
 from pilotage.io.bags import outgoing
 from pilotage.maps import build_atlas
+from pilotage.ranking.evidence import reduced
 from pilotage.ros import zenoh_node
 from pilotage.ros.node import NoTransportError, Quality
 from pilotage.ros.robot import LiveRobot, Topics
@@ -168,7 +170,7 @@ def test_a_file_of_the_environment_configures_the_session(monkeypatch, tmp_path,
 
 @pytest.mark.slow
 def test_a_robot_is_driven_to_its_goal(robot, ours):
-    settings = Settings()
+    settings = replace(Settings(), localizer=reduced(LocalizerSettings(), 1 / 4))
     atlas = build_atlas(open_map(worlds.OFFICE.careful), settings.localizer.atlas)
     world = open_world(worlds.OFFICE.world)
     simulator = put_down(world, None, np.random.default_rng(0), settings.simulator)
