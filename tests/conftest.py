@@ -1,5 +1,6 @@
 """Run the command line inside the test."""
 
+import gc
 import sys
 from typing import NamedTuple
 
@@ -22,6 +23,12 @@ settings.load_profile("patient")
 
 TABLES = 16
 """So many range tables are kept, 6 MB each."""
+
+
+def pytest_collection_finish():
+    """Keep the garbage collector off modules and tests: they stay, and each full pass would visit them."""
+    gc.collect()
+    gc.freeze()
 
 
 class Outcome(NamedTuple):
