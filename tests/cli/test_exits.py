@@ -15,6 +15,8 @@ from pilotage.errors import PilotageError
 
 FEW = """[localizer]
 proposals = 500
+[localizer.atlas.range_table]
+cells = 80
 [localizer.tracks]
 first_count = 4000
 max_count = 2000

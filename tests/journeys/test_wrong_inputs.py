@@ -10,7 +10,7 @@ from pilotage import Localizer, LocalizerSettings, open_log, open_map, worlds
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Pose2
 from pilotage.localization import Status, TrackSettings
-from pilotage.maps import AtlasSettings, RangeTableSettings
+from pilotage.maps import AtlasSettings, RangeTableSettings, build_atlas
 from pilotage.perception import LaserScan, Odometry, Reading
 
 FEW = LocalizerSettings(  # enough to fall over
@@ -40,8 +40,8 @@ def is_sane(estimate):
 
 
 @pytest.fixture(scope="module")
-def sketch():
-    return open_map(worlds.OFFICE.quick)
+def atlas():
+    return build_atlas(open_map(worlds.OFFICE.quick), FEW.atlas)
 
 
 @pytest.mark.parametrize(
@@ -49,8 +49,8 @@ def sketch():
     [np.full(181, np.nan), np.full(181, np.inf), np.full(181, -np.inf), np.zeros(181), [np.inf], [np.nan]],
     ids=["nan", "no return", "too close", "zero", "one beam, no return", "one beam, nan"],
 )
-def test_scans_that_show_nothing_leave_the_robot_lost(sketch, ranges):
-    localizer = Localizer(sketch, FEW)
+def test_scans_that_show_nothing_leave_the_robot_lost(atlas, ranges):
+    localizer = Localizer(atlas, FEW)
     estimates = [localizer.update(one.scan, one.odometry) for one in (reading(k, ranges) for k in range(5))]
 
     assert all(is_sane(estimate) for estimate in estimates)
@@ -58,14 +58,14 @@ def test_scans_that_show_nothing_leave_the_robot_lost(sketch, ranges):
 
 
 @pytest.mark.parametrize("ranges", [[2.0], [2.0, 2.0], [2.0, np.nan, 3.0]], ids=["one", "two", "three"])
-def test_scans_of_a_few_beams_are_no_reason_to_fall_over(sketch, ranges):
-    localizer = Localizer(sketch, FEW)
+def test_scans_of_a_few_beams_are_no_reason_to_fall_over(atlas, ranges):
+    localizer = Localizer(atlas, FEW)
     estimates = [localizer.update(one.scan, one.odometry) for one in (reading(k, ranges) for k in range(5))]
 
     assert all(is_sane(estimate) for estimate in estimates)
 
 
-def test_a_blind_stretch_in_a_log_is_survived(sketch):
+def test_a_blind_stretch_in_a_log_is_survived(atlas):
     readings = open_log(worlds.LOG).readings[:30]
     blind = [
         Reading(
@@ -74,15 +74,15 @@ def test_a_blind_stretch_in_a_log_is_survived(sketch):
         )
         for r in readings[10:20]
     ]
-    localizer = Localizer(sketch, FEW)
+    localizer = Localizer(atlas, FEW)
     run = [*readings[:10], *blind, *readings[20:]]
 
     assert all(is_sane(localizer.update(one.scan, one.odometry)) for one in run)
 
 
-def test_the_same_stamp_twice_is_taken_as_it_comes(sketch):
+def test_the_same_stamp_twice_is_taken_as_it_comes(atlas):
     readings = open_log(worlds.LOG).readings[:8]
-    localizer = Localizer(sketch, FEW)
+    localizer = Localizer(atlas, FEW)
     estimates = [
         localizer.update(one.scan, one.odometry) for one in (part for part in readings for _ in range(2))
     ]
@@ -91,8 +91,8 @@ def test_the_same_stamp_twice_is_taken_as_it_comes(sketch):
     assert estimates[0].stamp == estimates[1].stamp
 
 
-def test_time_that_runs_backwards_is_no_reason_to_fall_over(sketch):
-    localizer = Localizer(sketch, FEW)
+def test_time_that_runs_backwards_is_no_reason_to_fall_over(atlas):
+    localizer = Localizer(atlas, FEW)
 
     assert all(
         is_sane(localizer.update(one.scan, one.odometry))
@@ -100,8 +100,8 @@ def test_time_that_runs_backwards_is_no_reason_to_fall_over(sketch):
     )
 
 
-def test_odometry_that_jumps_is_no_reason_to_fall_over(sketch):
-    localizer = Localizer(sketch, FEW)
+def test_odometry_that_jumps_is_no_reason_to_fall_over(atlas):
+    localizer = Localizer(atlas, FEW)
     room = np.full(181, 2.0)
 
     assert all(
