@@ -87,10 +87,7 @@ def test_a_drawing_of_another_building_is_noticed_for_a_while(lost_in_another_bu
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(
-    reason="rooms of two buildings look alike, and belief settles on one of them (decision 0024)"
-)
-def test_by_a_drawing_of_another_building_no_goal_is_ever_reached(lost_in_another_building):
+def test_by_a_drawing_of_another_building_the_goal_is_not_reached(lost_in_another_building):
     assert Outcome.REACHED is not lost_in_another_building.outcome
 
 

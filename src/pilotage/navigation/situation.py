@@ -91,9 +91,9 @@ class Situation:
             return Arrival(self.memory.arrival.times_doubted)
         estimate = self.estimate
         is_located = estimate.status is Status.LOCATED
-        is_room = self.planner.goal.is_room
-        probability = estimate.cell_probability if is_room else estimate.probability
-        position_std = estimate.position_std if self.has_moved and not is_room else 0.0
+        anywhere = self.planner.goal.is_room or not self.has_moved  # then it stands where it was told
+        probability = estimate.cell_probability if anywhere else estimate.probability
+        position_std = 0.0 if anywhere else estimate.position_std
         return self.memory.arrival.judged(
             self.stamp, probability if is_located else 0.0, position_std, self.settings.sure
         )
