@@ -1,4 +1,4 @@
-"""Run the command line inside the test."""
+"""What all tests share: the command line within a test, one range table of each drawing, examples."""
 
 import gc
 import sys
