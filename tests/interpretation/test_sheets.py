@@ -81,6 +81,13 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("мебель", Role.FURNITURE),
         ("Bemaßung", Role.IGNORE),
         ("testo", Role.LABEL),
+        ("Couch/Benches", Role.FURNITURE),
+        ("estanterías", Role.FURNITURE),
+        ("Bücherregale", Role.FURNITURE),
+        ("Stahltraeger", Role.IGNORE),
+        ("A-Beams", Role.IGNORE),
+        ("Außenwand", Role.WALL),
+        ("seuils", Role.DOOR),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):
