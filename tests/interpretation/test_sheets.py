@@ -38,6 +38,13 @@ def test_light_lines_on_a_dark_ground_are_walls():
     )
 
 
+def test_white_lines_without_any_ground_are_drawn_for_a_dark_one():
+    light = [Mark(mark.outlines, Pen(WHITE, 1.0)) for mark in WITH_GAP]
+
+    assert are_joined(light)
+    assert are_joined((*WITH_GAP, stroke((0, 40), (100, 40), color=WHITE)))
+
+
 def test_a_colored_rectangle_on_a_part_of_the_page_is_no_paper():
     marks = (box(0, 0, 100, 80, fill=NIGHT), *WITH_GAP)
 
