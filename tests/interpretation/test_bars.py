@@ -54,3 +54,25 @@ def test_where_walls_have_gaps_no_bar_is_a_door():
     columns = [box(x - 1, 20, x + 1, 22, fill=BLACK) for x in (25, 50, 75)]
 
     assert 3 == number_of_doors((OUTSIDE, *gaps, *columns))
+
+
+def test_one_bar_is_a_door_if_it_is_called_so():
+    wall, bar = stroke((50, 0), (50, 80)), ((50, 30), (50, 42))
+
+    assert 1 == number_of_doors((OUTSIDE, wall, stroke(*bar, names=("door-bath",))))
+    assert not number_of_doors((OUTSIDE, wall, stroke(*bar)))
+    assert not number_of_doors((OUTSIDE, wall, stroke((0, 30), (0, 42), names=("door",))))
+
+
+def test_what_a_person_calls_a_door_opens_its_wall():
+    marks = (OUTSIDE, stroke((50, 0), (50, 80)), stroke((50, 30), (50, 42), names=("x7",)))
+
+    assert not interpret(Sheet(marks)).sketch.doors
+    assert 1 == len(interpret(Sheet(marks), {"x7": Role.DOOR}).sketch.doors)
+
+
+def test_two_bars_between_rooms_and_one_at_the_front_are_doors():
+    bars = [stroke((x, 30), (x, 42), width=3.0) for x in (25, 50)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS[:2], *bars))
+    assert 2 == number_of_doors((OUTSIDE, *WALLS[:2], *bars, stroke((60, 0), (72, 0), width=3.0)))

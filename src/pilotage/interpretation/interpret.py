@@ -34,7 +34,7 @@ NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """Arcs of these are of cupboards and trees."""
 
-CLOSING = (Role.WALL, Role.WINDOW, Role.STAIRS)
+CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
 
 NOT_NAMED = (Role.WALL, "")
@@ -79,7 +79,8 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
     doors = find_doors(sheet, built, diagonal)
-    bars = [] if doors else find_bars(sheet, built, diagonal)
+    called_doors = {number for number, (role, _) in guessed.items() if role is Role.DOOR}
+    bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
     left = without_bars(without_doors(built, doors), bars, diagonal)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     painted = [
@@ -138,7 +139,10 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
             set(paper.sheets),
             letters,
-            {**dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")), **named},
+            {
+                **dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
+                **named,
+            },
             built,
             left,
             doors,
