@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from flats import BLACK, OUTSIDE, RED, box, graph_of, stroke
-from pilotage.interpretation import Pen, Role, Sheet, interpret
+from flats import BLACK, OUTSIDE, RED, WHITE, box, graph_of, stroke
+from pilotage.interpretation import Pen, Role, Sheet, Text, interpret
 
 TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
 WALLS = tuple(stroke((x, 0), (x, 80)) for x in (25, 50, 75))
@@ -54,3 +54,45 @@ def test_where_walls_have_gaps_no_bar_is_a_door():
     columns = [box(x - 1, 20, x + 1, 22, fill=BLACK) for x in (25, 50, 75)]
 
     assert 3 == number_of_doors((OUTSIDE, *gaps, *columns))
+
+
+def test_one_bar_is_a_door_if_it_is_called_so():
+    wall, bar = stroke((50, 0), (50, 80)), ((50, 30), (50, 42))
+
+    assert 1 == number_of_doors((OUTSIDE, wall, stroke(*bar, names=("door-bath",))))
+    assert not number_of_doors((OUTSIDE, wall, stroke(*bar)))
+    assert not number_of_doors((OUTSIDE, wall, stroke((0, 30), (0, 42), names=("door",))))
+
+
+def test_what_a_person_calls_a_door_opens_its_wall():
+    marks = (OUTSIDE, stroke((50, 0), (50, 80)), stroke((50, 30), (50, 42), names=("x7",)))
+
+    assert not interpret(Sheet(marks)).sketch.doors
+    assert 1 == len(interpret(Sheet(marks), {"x7": Role.DOOR}).sketch.doors)
+
+
+def test_two_bars_between_rooms_and_one_at_the_front_are_doors():
+    bars = [stroke((x, 30), (x, 42), width=3.0) for x in (25, 50)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS[:2], *bars))
+    assert 2 == number_of_doors((OUTSIDE, *WALLS[:2], *bars, stroke((60, 0), (72, 0), width=3.0)))
+
+
+ROOMS = {"a": (20.0, 18.0), "b": (75.0, 18.0), "c": (20.0, 62.0), "d": (75.0, 62.0)}
+
+
+def test_a_gap_in_one_of_two_lines_between_rooms_opens_both():
+    rooms = [box(x, y, x + 46, y + 36, pen=Pen(BLACK, 1.0)) for x in (0, 54) for y in (0, 44)]
+    gaps = [stroke((46, y), (46, y + 14), color=WHITE, width=2.0) for y in (10, 55)]
+
+    graph = graph_of((*rooms, *gaps), tuple(Text(name, at, height=3.0) for name, at in ROOMS.items()))
+    ids = {cell.label: cell.cell_id for cell in graph.cells}
+    beyond = {
+        (name, graph.cell(room.cell_id).label)
+        for name in ("a", "c")
+        for doorway in graph.neighbors(ids[name])
+        for room in graph.neighbors(doorway.cell_id)
+    }
+
+    assert {("a", "a"), ("a", "b"), ("c", "c"), ("c", "d")} == beyond
+    assert "a gap in one of two lines" == interpret(Sheet((*rooms, *gaps))).meanings[-1].reason

@@ -74,6 +74,35 @@ def test_a_leaf_that_leans_on_a_wall_is_no_opening(angles):
     assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[52, 5.5], [52, 17.5]]]
 
 
+def test_a_leaf_that_is_drawn_in_the_gap_of_its_wall_is_shut():
+    walls = [box(*bounds, fill=BLACK) for bounds in [*OUTER, (48, 0, 52, 64), (48, 76, 52, 80)]]
+    leaf, swing = stroke((52, 76), (52, 64)), arc((52, 76), 12, -90, 0)
+
+    assert are_joined((*walls, leaf, swing))
+
+
+def test_where_leaves_are_drawn_on_walls_so_they_are_in_corners():
+    rooms = [box(*bounds, pen=PEN) for bounds in [(0, 0, 50, 40), (50, 0, 100, 40), (0, 40, 100, 80)]]
+    plain = (stroke((20, 40), (32, 40)), arc((20, 40), 12, -90, 0))
+    in_corner = (stroke((50, 40), (50, 28)), arc((50, 40), 12, 180, 270))
+
+    sketch = interpret(Sheet((*rooms, *plain, *in_corner))).sketch
+
+    assert sorted(sorted(line.vertices.round(3).tolist()) for line in sketch.doors) == [
+        [[20, 40], [32, 40]],
+        [[50, 28], [50, 40]],
+    ]
+
+
+def test_a_symbol_that_is_turned_the_wrong_way_opens_the_wall_that_it_touches():
+    leaf, swing = stroke((62, 30), (62, 42)), arc((62, 30), 12, 90, 180)
+    threshold = stroke((62, 30), (50, 30))
+
+    for symbol in ((leaf, swing), (leaf, swing, threshold)):
+        doors = interpret(Sheet((OUTSIDE, WALL, *symbol))).sketch.doors
+        assert [sorted(line.vertices.round(3).tolist()) for line in doors] == [[[50, 30], [50, 42]]]
+
+
 def test_two_leaves_make_one_double_door():
     lower = (stroke((50, 30), (57, 30)), arc((50, 30), 7, 0, 90))
     upper = (stroke((50, 44), (57, 44)), arc((50, 44), 7, -90, 0))

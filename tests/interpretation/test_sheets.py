@@ -38,6 +38,13 @@ def test_light_lines_on_a_dark_ground_are_walls():
     )
 
 
+def test_white_lines_without_any_ground_are_drawn_for_a_dark_one():
+    light = [Mark(mark.outlines, Pen(WHITE, 1.0)) for mark in WITH_GAP]
+
+    assert are_joined(light)
+    assert are_joined((*WITH_GAP, stroke((0, 40), (100, 40), color=WHITE)))
+
+
 def test_a_colored_rectangle_on_a_part_of_the_page_is_no_paper():
     marks = (box(0, 0, 100, 80, fill=NIGHT), *WITH_GAP)
 
@@ -81,6 +88,13 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("мебель", Role.FURNITURE),
         ("Bemaßung", Role.IGNORE),
         ("testo", Role.LABEL),
+        ("Couch/Benches", Role.FURNITURE),
+        ("estanterías", Role.FURNITURE),
+        ("Bücherregale", Role.FURNITURE),
+        ("Stahltraeger", Role.IGNORE),
+        ("A-Beams", Role.IGNORE),
+        ("Außenwand", Role.WALL),
+        ("seuils", Role.DOOR),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -38,8 +39,11 @@ BEYOND = 0.01
 LEVEL = np.sin(np.radians(5.0))
 """A bar and its wall are parallel up to this."""
 
+PARTING = 2
+"""So many marks of one style at least part rooms; the front door does not."""
+
 ALIKE = 3
-"""So many marks of one style at least part rooms, where marks of this style are doors."""
+"""So many marks of one style at least lie on walls, where marks of this style are doors."""
 
 MOST = 0.5
 """And so many of all marks of this style, as a share: what also stands within rooms is furniture."""
@@ -65,27 +69,26 @@ class Bar:
         return np.array([-along[1], along[0]])
 
 
-def find_bars(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Bar]:
+def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diagonal: float) -> list[Bar]:
     """Find the bars and squares that mark doors: alike, on walls, each between two rooms that are closed.
 
     Where walls have gaps for doors, what lies on both sides of them is one room: there are no such marks.
+    One mark is enough if it is among those named doors.
     """
     shapes: dict[object, list[int]] = defaultdict(list)
     for place, mark in enumerate(seen):
         drawn = sheet.marks[mark.number]
-        shapes[drawn.pen, drawn.fill].append(place)
-    possible = {
-        style: bars
-        for style, places in shapes.items()
-        if len(places) >= ALIKE
-        and len(bars := [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]) >= ALIKE
-    }
+        shapes[drawn.pen, drawn.fill, mark.number in named].append(place)
     found: list[Bar] = []
-    for style, bars in possible.items():
-        own = set(shapes[style])
+    for places in shapes.values():
+        least = 1 if seen[places[0]].number in named else ALIKE
+        bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
+        if len(places) < least or len(bars) < least:
+            continue
+        own = set(places)
         others = [mark for place, mark in enumerate(seen) if place not in own]
-        parting = {bar.place: bar for bar in parting_bars(bars, others, diagonal)}
-        if len(parting) >= max(ALIKE, MOST * len(own)):
+        parting = {bar.place: bar for bar in parting_bars(bars, others, least, diagonal)}
+        if len(parting) >= (1 if least == 1 else max(PARTING, MOST * len(own))):
             found.extend(parting.values())
     return found
 
@@ -113,11 +116,11 @@ def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> 
     ]
 
 
-def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], diagonal: float) -> list[Bar]:
-    """Keep the bars on walls between two rooms, told by the marks that are no bars."""
+def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], least: int, diagonal: float) -> list[Bar]:
+    """Keep bars between two rooms, told by the other marks; none if fewer than `least` are on walls."""
     segments = segments_of(others)
     on_wall = [bar for bar in bars if goes_on(bar, segments, diagonal)]
-    if len(on_wall) < ALIKE:
+    if len(on_wall) < least:
         return []
     grain = NEAR * diagonal / 2.0
     pieces = on_grid(np.concatenate([segments.ends, *(bar.ends[None] for bar in on_wall)]), grain)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, Arc, find_arcs
+from pilotage.interpretation.closing import closings
 from pilotage.interpretation.leaves import find_leaves
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of, united
 from pilotage.interpretation.segments import Segments, segments_of
@@ -32,12 +33,6 @@ BESIDE = 0.25
 
 GATE = 3.0
 """Two leaves that meet may each be so many times as wide as most doors: a gate."""
-
-BEHIND = (0.03, 0.2)
-"""A wall this far behind a leaf that stands wide open, as shares of the radius, is one that it leans on."""
-
-ALONGSIDE = (0.25, 0.75, 1.25)
-"""It passes what lies between these shares of the leaf, and is longer than the last."""
 
 JAMB = 0.06
 """Share of an opening at either end that is not cut."""
@@ -97,22 +92,24 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     if not candidates:
         return []
     usual = usual_width(candidates)
-    doors = []
-    for arc, marks, leaves, walls in judged:
-        is_gate = usual * ALIKE < arc.radius <= usual * GATE and any(meet(arc, other) for other in leaved)
-        if not (is_gate or is_like(arc, usual)) or not (
-            leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)
-        ):
-            continue
-        closed = int(np.argmax(walls - 2.0 * (leaves & ~leaves[::-1])))
-        if arc.sweep >= AJAR and leaves.all() and walls[0] == walls[1]:
-            closed = int(leans(arc, arc.ends[0], segments) and not leans(arc, arc.ends[1], segments))
-        doors.append(Door(arc.center, arc.ends[closed], arc, marks))
+    drawn = [one for one in judged if is_drawn(one[0], *one[2:], usual, leaved)]
+    sides = [(arc, leaves, walls) for arc, _, leaves, walls in drawn]
+    doors = [
+        Door(ends[0], ends[1], arc, marks)
+        for (arc, marks, *_), ends in zip(drawn, closings(sides, segments), strict=True)
+    ]
     for arc, _ in ajar:
         leaf = shapely.LineString([arc.center, arc.ends[0]])
         if is_like(arc, usual) and not any(door.swing.contains(leaf) for door in doors):
             doors.append(Door(arc.center, arc.ends[1], arc, ()))
     return doors
+
+
+def is_drawn(arc: Arc, leaves: NDArray[np.bool_], walls: Array, usual: float, leaved: Sequence[Arc]) -> bool:
+    """Tell whether an arc is a door's: as wide as most or a gate, with a leaf or a wall at both its ends."""
+    is_gate = usual * ALIKE < arc.radius <= usual * GATE and any(meet(arc, other) for other in leaved)
+    has_ends = leaves.any() or (arc.sweep >= AJAR and walls.max() == 2.0)
+    return bool((is_gate or is_like(arc, usual)) and has_ends)
 
 
 def is_like(arc: Arc, usual: float) -> bool:
@@ -200,25 +197,6 @@ def has_leaf(arc: Arc, end: Array, segments: Segments) -> bool:
         (segments.lengths[near] >= LEAF[0] * arc.radius) & (segments.lengths[near] <= LEAF[1] * arc.radius)
     ]
     return len(near) > 0
-
-
-def leans(arc: Arc, end: Array, segments: Segments) -> bool:
-    """Tell whether a wall passes behind the spoke to one end of an arc, and none along it: it is no opening.
-
-    Behind is where the arc is not. A door that is drawn on a wall without a gap has a line along its opening.
-    """
-    along = (end - arc.center) / arc.radius
-    inward = arc.ends.sum(axis=0) - 2.0 * end
-    first, last, long = ALONGSIDE
-    middle = shapely.LineString(arc.center + np.array([[first], [last]]) * (end - arc.center))
-    near = segments.tree.query(middle, predicate="dwithin", distance=BEHIND[1] * arc.radius)
-    steps, lengths = segments.ends[near, 1] - segments.ends[near, 0], segments.lengths[near]
-    turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0])
-    near = near[(lengths >= long * arc.radius) & (turn <= SLACK * lengths)]
-    across = np.array([-along[1], along[0]])
-    across = across if across @ inward > 0.0 else -across
-    offsets = (segments.ends[near].mean(axis=1) - arc.center) @ across / arc.radius
-    return bool((offsets < -BEHIND[0]).any() and not (np.abs(offsets) <= BEHIND[0]).any())
 
 
 def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:

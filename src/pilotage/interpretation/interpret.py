@@ -13,6 +13,7 @@ from pilotage.interpretation.dashed import find_dashed, opened_dashed
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.halves import find_halves, opened_halves, without_halves
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
@@ -34,7 +35,7 @@ NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """Arcs of these are of cupboards and trees."""
 
-CLOSING = (Role.WALL, Role.WINDOW, Role.STAIRS)
+CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
 
 NOT_NAMED = (Role.WALL, "")
@@ -79,8 +80,10 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
     doors = find_doors(sheet, built, diagonal)
-    bars = [] if doors else find_bars(sheet, built, diagonal)
-    left = without_bars(without_doors(built, doors), bars, diagonal)
+    called_doors = {number for number, (role, _) in guessed.items() if role is Role.DOOR}
+    bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
+    halves = find_halves(sheet, drawn, built, paper.ground, diagonal)
+    left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
     seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
     painted = [
         number
@@ -129,6 +132,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         doors=(
             *(Polyline(np.array([door.hinge, door.latch])) for door in doors),
             *opened(bars),
+            *opened_halves(halves),
             *opened_dashed(sheet, sorted(dashed)),
         ),
     )
@@ -138,7 +142,11 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
             set(paper.sheets),
             letters,
-            {**dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")), **named},
+            {
+                **dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
+                **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in halves},
+                **named,
+            },
             built,
             left,
             doors,

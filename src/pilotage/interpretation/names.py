@@ -37,28 +37,52 @@ SPOKEN: Mapping[str, Role] = {
 """The words with which a user tells this program a role; they are always believed."""
 
 VOCABULARY: Mapping[Role, str] = {
-    Role.WALL: "wall walls wand waende wände mauer mur murs cloison muro muri muros parete parede"
-    " paredes pared tabique muur muren vägg vegg seinä стена стены",
-    Role.DOOR: "door doors doorarc tür türen tuer tueren porte portes porta porte portas puerta puertas"
-    " deur dörr ovi двери дверь",
+    Role.WALL: "wall walls partition partitions wand waende wände mauer mur murs cloison muro muri muros"
+    " parete parede paredes pared tabique muur muren vägg vegg seinä стена стены",
+    Role.DOOR: "door doors doorarc doorway doorways threshold thresholds tür türen tuer tueren schwelle"
+    " schwellen porte portes seuil seuils porta porte portas soglia soglie soleira puerta puertas umbral"
+    " deur deuren drempel dörr ovi двери дверь",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
-    " ventanas janela janelas raam fönster ikkuna окно окна",
+    " ventanas janela janelas raam ramen fönster ikkuna окно окна",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
     " escaleras escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
     " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture"
     " fixtures fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
-    " kitchenware plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель",
-    Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto",
+    " kitchenware plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель"
+    " couch couches sofas bench benches shelf shelves shelving rack racks bookcase bookshelf bookshelves"
+    " cabinets cupboard cupboards desks chairs tables beds armchair armchairs stool stools toilets sinks"
+    " basin basins washbasin tub stove oven fridge refrigerator dishwasher countertop countertops worktop"
+    " lamp lamps lights lighting sockets outlets switches radiator radiators people cars vehicles"
+    " einrichtung inventar regal regale schrank schränke schraenke tisch tische stuhl stühle stuehle bett"
+    " betten bänke baenke sessel waschbecken badewanne spüle herd leuchten steckdosen heizkörper"
+    " canapé canape canapés banc bancs étagère étagères etagere etageres armoire armoires lits fauteuil"
+    " fauteuils chaise chaises bureaux lavabo lavabos baignoire sofá sofás bancos estante estantes"
+    " estantería estanterías armario armarios silla sillas mesa mesas cama camas arredi arredamento"
+    " divano divani panca panche scaffale scaffali armadio armadi sedia sedie tavolo tavoli letto letti"
+    " sanitari meubels kast kasten tafel tafels stoel stoelen bedden rekken mobiliário móveis moveis"
+    " prateleira prateleiras armário armários cadeira cadeiras louças",
+    Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto"
+    " textos tekst raumnamen raumbezeichnung",
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
     " legend north paths route routes fluchtweg fluchtwege rettungsweg rettungswege"
-    " landscape landscaping contouring vegetation planting",
+    " landscape landscaping contouring vegetation planting measurement measurements maße medidas misure"
+    " maten beam beams joist joists träger traeger balken unterzug unterzüge unterzuege poutre poutres"
+    " viga vigas trave travi balk overhang ceiling clng decke plafond soffitto hvac ducts elec elektro"
+    " compass scalebar watermark logo",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 
 MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
+
+HEADS = (
+    *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
+    *("schrank", "schränke", "schraenke", "regal", "regale", "tisch", "tische", "stuhl", "stühle", "stuehle"),
+    *("bett", "betten", "träger", "traeger", "balken"),
+)
+"""What ends with one of these is of its kind: "Stahlträger" is a beam. German joins its words."""
 
 
 def words_of(name: str) -> Iterator[str]:
@@ -111,9 +135,20 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
     """Guess a role by what people call their layers, the innermost name first."""
     for name in reversed(names):
         for word in name_words(name):
-            if word in MEANING:
-                return MEANING[word], f"its name is {name!r}"
+            if (role := meaning_of(word)) is not None:
+                return role, f"its name is {name!r}"
     return None
+
+
+def meaning_of(word: str) -> Role | None:
+    """Tell what a word of lower case makes a mark; None if it says nothing.
+
+    >>> [meaning_of(word) for word in ("shelves", "stahlträger", "kitchen")]
+    [<Role.FURNITURE: 'furniture'>, <Role.IGNORE: 'ignore'>, None]
+    """
+    if word in MEANING:
+        return MEANING[word]
+    return next((MEANING[head] for head in HEADS if word.endswith(head)), None)
 
 
 def name_words(name: str) -> list[str]:

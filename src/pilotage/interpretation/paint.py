@@ -8,11 +8,8 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.paper import difference
+from pilotage.interpretation.paper import FAINT, difference
 from pilotage.interpretation.sheet import Color, Mark, Sheet
-
-FAINT = 0.1
-"""Paint that differs less than this from the ground in every channel cannot be seen: it erases."""
 
 EDGE = 0.0005
 """Paint hides nothing this near its border, as a share of the drawing's diagonal: neighbors share edges."""

@@ -7,10 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Polyline, signed_area
-from pilotage.interpretation.sheet import WHITE, Bounds, Color, Mark, Sheet
+from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Sheet
 
 ROUNDING = 1e-6
 """Relative error that transforms may leave in an area."""
+
+FAINT = 0.1
+"""Paint that differs less than this from the ground in every channel cannot be seen."""
 
 SAME = 0.02
 """Colors that differ by less than this in every channel are one color."""
@@ -31,7 +34,7 @@ def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
     """Find sheets of paper among the marks drawn: rectangles, filled but without a line, below all else.
 
     A sheet covers the whole page, or is white or of the color of the ground and holds all else; a colored
-    rectangle on a part of the page is a building.
+    rectangle on a part of the page is a building. White lines without any sheet are drawn for a dark one.
     """
     sheets: list[int] = []
     ground = sheet.background
@@ -45,6 +48,11 @@ def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
             break
         sheets.append(number)
         ground = mark.fill if covering else ground
+    paints = [sheet.marks[number] for number in drawn if number not in sheets]
+    lines = [mark.pen.color for mark in paints if mark.pen is not None]
+    areas = [mark.fill for mark in paints if mark.fill is not None]
+    if lines and all(difference(color, WHITE) < FAINT for color in (ground, *lines, *areas)):
+        ground = BLACK
     return Paper(tuple(sheets), ground)
 
 

@@ -20,7 +20,8 @@ ALIKE = 1.35
 
 UNITS = frozenset({
     "mm", "cm", "m", "ft", "feet", "in", "inch", "inches", "sq", "sqm", "sqft", "sf", "qm", "mq", "m²", "ft²",
-    "㎡", "坪", "평", "metres", "meters", "x", "кв", "м", "area", "fläche", "superficie", "surface",
+    "㎡", "坪", "평", "畳", "帖", "米", "平米", "平方米", "metres", "meters", "x", "кв", "м", "м²",
+    "см", "мм", "kvm", "area", "fläche", "superficie", "surface", "площадь", "面积",
     "°c", "°f", "kw", "kwh", "lx", "ppm", "hpa",
 })  # fmt: skip
 """Words of areas and lengths, and of what dashboards show; with numbers and nothing else they are no name."""
@@ -56,6 +57,8 @@ def is_measure(words: str) -> bool:
     [True, True, True, False, False]
     >>> [is_measure(words) for words in ("A: 13.30 m²", "21.5 °C", "15.96 m² (4.83 坪)", "A 12", "C 3")]
     [True, True, True, False, False]
+    >>> [is_measure(words) for words in ("16,9 м²", "S = 8.5 кв.м", "6帖", "面积 12 平方米", "洋室 6帖")]
+    [True, True, True, True, False]
     """
     tokens = TOKEN.findall(words.casefold())
     letters = [token for token in tokens if token.lstrip("°")[:1].isalpha() and token not in AROUND]
