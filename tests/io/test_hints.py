@@ -105,8 +105,8 @@ def test_a_drawing_of_too_many_pieces_tells_which_layers_have_most(tmp_path, mon
     walls = "".join(f'<path d="M{x},0 V80"/>' for x in range(0, 80, 20))
     plan.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" fill="none" stroke="black">'
-        f'<rect id="shell" width="60" height="80"/><g id="shelves">{walls}</g></svg>'
+        f'<rect id="shell" width="60" height="80"/><g id="slats">{walls}</g></svg>'
     )
 
-    with pytest.raises(FileError, match=r"found 8; .* \(most are named 'shelves' \(8\), 'shell' \(4\)\)"):
+    with pytest.raises(FileError, match=r"found 8; .* \(most are named 'slats' \(8\), 'shell' \(4\)\)"):
         open_map(plan)
