@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pilotage.geometry import Pose2
-from pilotage.localization.keyframes import Keyframe, choose_keyframes, news_at
+from pilotage.localization.keyframes import Keyframe, choose_keyframes, novelty_at
 from pilotage.localization.sensor_model import SparseScan
 from pilotage.shape.corners import find_corners
 
@@ -19,9 +19,9 @@ poses = st.builds(Pose2, coordinates, coordinates, st.floats(-math.pi, math.pi))
 views = st.floats(0.1, math.tau)
 
 
-def keyframe(pose, news=1.0):
+def keyframe(pose, novelty=1.0):
     nothing = np.empty(0, dtype=np.int32)
-    return Keyframe(SparseScan(nothing, nothing), find_corners([]), pose, 0.0, news)
+    return Keyframe(SparseScan(nothing, nothing), find_corners([]), pose, 0.0, novelty)
 
 
 def window_of(poses):
@@ -30,16 +30,16 @@ def window_of(poses):
 
 @given(poses, views, st.lists(poses, max_size=5))
 def test_news_are_a_share_and_all_of_them_where_nothing_was_seen(pose, view, seen_from):
-    assert 0.0 <= news_at(pose, view, window_of(seen_from)) <= 1.0
-    assert news_at(pose, view, ()) == 1.0
+    assert 0.0 <= novelty_at(pose, view, window_of(seen_from)) <= 1.0
+    assert novelty_at(pose, view, ()) == 1.0
 
 
 @given(poses, views, st.lists(poses, min_size=1, max_size=5), poses)
 def test_who_has_seen_more_learns_less(pose, view, seen_from, further):
-    before = news_at(pose, view, window_of(seen_from))
+    before = novelty_at(pose, view, window_of(seen_from))
 
-    assert news_at(pose, view, window_of([*seen_from, further])) <= before
-    assert news_at(pose, view, window_of([*seen_from, pose])) == pytest.approx(0.0, abs=1e-9)
+    assert novelty_at(pose, view, window_of([*seen_from, further])) <= before
+    assert novelty_at(pose, view, window_of([*seen_from, pose])) == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -55,19 +55,19 @@ def test_who_has_seen_more_learns_less(pose, view, seen_from, further):
     ],
 )
 def test_news_of_worked_examples(pose, view, expected):
-    assert news_at(pose, view, window_of([Pose2.identity()])) == pytest.approx(expected)
+    assert novelty_at(pose, view, window_of([Pose2.identity()])) == pytest.approx(expected)
 
 
 def test_the_way_back_shows_nothing_new_to_a_scanner_that_sees_all_around():
     way = window_of([Pose2(0.5 * k, 0.0, 0.0) for k in range(10)])
 
-    assert news_at(Pose2(2.0, 0.0, math.pi), ALL_AROUND, way) == pytest.approx(0.0, abs=1e-9)
-    assert news_at(Pose2(2.0, 0.0, math.pi), HALF, way) == 1.0
+    assert novelty_at(Pose2(2.0, 0.0, math.pi), ALL_AROUND, way) == pytest.approx(0.0, abs=1e-9)
+    assert novelty_at(Pose2(2.0, 0.0, math.pi), HALF, way) == 1.0
 
 
 @given(st.lists(st.floats(0.0, 1.0), max_size=20), st.integers(1, 10))
-def test_chosen_keyframes_are_some_of_the_window_the_newest_first(news, count):
-    window = tuple(keyframe(Pose2.identity(), share) for share in (1.0, *news))
+def test_chosen_keyframes_are_some_of_the_window_the_newest_first(novelty, count):
+    window = tuple(keyframe(Pose2.identity(), share) for share in (1.0, *novelty))
 
     chosen = choose_keyframes(window, count)
 
@@ -88,9 +88,9 @@ def test_keyframes_of_equal_news_are_chosen_evenly(length):
 
 
 def test_a_robot_that_stood_and_turned_is_judged_by_the_rest_of_its_way():
-    news = [1.0, 1.0, 1.0, *[0.0] * 12, 1.0, 1.0]
-    window = tuple(keyframe(Pose2.identity(), share) for share in news)
+    novelty = [1.0, 1.0, 1.0, *[0.0] * 12, 1.0, 1.0]
+    window = tuple(keyframe(Pose2.identity(), share) for share in novelty)
 
     chosen = choose_keyframes(window, 5)
 
-    assert sum(one.news for one in chosen) == 5.0
+    assert sum(one.novelty for one in chosen) == 5.0

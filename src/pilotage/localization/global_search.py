@@ -17,7 +17,7 @@ from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
 from pilotage.localization.sensor_model import SensorModel
 
 SCANS = 8
-"""Scans of the window that are compared, evenly spaced."""
+"""Scans of the window that are compared."""
 KEPT = (6, 30)
 """One in 6 proposals is kept after the newest scan, and one in 30 after half of the scans."""
 ROUNDS = 4
@@ -43,7 +43,7 @@ def global_search(
     )
     log_prior = -math.log(states.shape[1])
     chosen = choose_keyframes(window, SCANS)
-    weight = min(sum(one.news for one in window) / len(chosen), 1.0)
+    weight = min(sum(one.novelty for one in window) / len(chosen), 1.0)
     for share, some in zip(KEPT, (chosen[:1], chosen[::2]), strict=True):
         scores = log_evidence(states, some, model, weight)
         states = states[:, _best(scores, max(1, count // share))]
@@ -61,12 +61,10 @@ def global_search(
     return found.plus(log_mass - found.log_mass)
 
 
-def log_evidence(
-    states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel, weight: float = 1.0
-) -> Array:
+def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel, weight: float) -> Array:
     """Sum the log-likelihood ratios of keyframes, the newest first, for states (6, n) of the newest, (n,).
 
-    Each keyframe counts with this weight.
+    Each keyframe counts with this weight, [0..1].
     """
     base_from_odom = keyframes[0].odom_from_base.inverse()
     scores = np.zeros(states.shape[1])

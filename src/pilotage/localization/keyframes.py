@@ -11,11 +11,13 @@ from pilotage.localization.sensor_model import SparseScan
 from pilotage.shape.corners import Corners
 
 WINDOW = 10.0
-"""[m] of travel that is searched for as one: over more, the proportions of a drawing change."""
+"""[m] of travel that is searched for as one, and within which a place is known again: over more, the
+proportions of a drawing change."""
 NEW_STEP = 0.5
-"""[m] from the places of all keyframes at which a scan counts in full."""
+"""[m] from where all keyframes were taken: there a scan counts in full."""
 NEW_TURN = math.radians(60.0)
-"""[rad] of a turn on the spot after which a scan of half a turn counts in full; one of a full turn never."""
+"""[rad] of a turn on the spot after which a scan that covers 180 degrees counts in full. One that covers 360
+degrees shows nothing new, and between the two the novelty is interpolated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +28,7 @@ class Keyframe:
     corners: Corners  # in the frame of the robot [m]
     odom_from_base: Pose2
     travel: float  # [m]
-    news: float = 1.0  # [0..1] share of the scan that the keyframes before it did not show
+    novelty: float = 1.0  # [0..1] share of the scan that no keyframe of the window showed: its weight
 
 
 def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
@@ -37,27 +39,27 @@ def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Ke
     travel = last.travel + math.hypot(seen.motion.x, seen.motion.y)
     kept = tuple(one for one in window if travel - one.travel <= WINDOW)
     odom_from_base = last.odom_from_base @ seen.motion
-    news = news_at(odom_from_base, seen.view, kept)
-    return (*kept, Keyframe(seen.scan, seen.corners, odom_from_base, travel, news))
+    novelty = novelty_at(odom_from_base, seen.view, kept)
+    return (*kept, Keyframe(seen.scan, seen.corners, odom_from_base, travel, novelty))
 
 
-def news_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...]) -> float:
+def novelty_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...]) -> float:
     """Return the share of a scan of `view` [rad] from a pose that no keyframe of a window showed, [0..1].
 
-    A drawing errs alike whenever the same walls are seen from the same place, so that counts once.
+    A drawing errs alike whenever the same walls are seen from the same place, so they count once.
     """
     turn_rate = 2.0 * (1.0 - view / math.tau) / NEW_TURN
-    news = 1.0
+    novelty = 1.0
     for one in window:
         motion = one.odom_from_base.inverse() @ odom_from_base
-        news = min(news, math.hypot(motion.x, motion.y) / NEW_STEP + turn_rate * abs(motion.theta))
-    return news
+        novelty = min(novelty, math.hypot(motion.x, motion.y) / NEW_STEP + turn_rate * abs(motion.theta))
+    return novelty
 
 
 def choose_keyframes(window: tuple[Keyframe, ...], count: int) -> tuple[Keyframe, ...]:
-    """Take keyframes that stand for equal shares of the news, the newest first."""
-    news = np.cumsum([one.news for one in window])
-    picked = np.searchsorted(news, np.linspace(news[0], news[-1], min(count, len(window))) - 0.5)
+    """Take keyframes that stand for equal shares of the novelty of all; the newest is always the first."""
+    novelty = np.cumsum([one.novelty for one in window])
+    picked = np.searchsorted(novelty, np.linspace(novelty[0], novelty[-1], min(count, len(window))) - 0.5)
     picked = np.unique([*picked[:-1], len(window) - 1])
     return tuple(window[index] for index in picked[::-1])
 

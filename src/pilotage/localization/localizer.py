@@ -191,7 +191,7 @@ class Localizer:
             particles, log_null = leave(
                 particles, log_null, settings.tracks.leaving * distance * math.exp(self._log_told)
             )
-        log_ratio = self._window[-1].news * self._model.log_ratio(particles.states, scan)
+        log_ratio = self._window[-1].novelty * self._model.log_ratio(particles.states, scan)
         particles = Particles(particles.states, particles.log_weights + log_ratio)
         particles, log_null, log_total = normalized(particles, log_null)
         self.log_evidence += log_total
