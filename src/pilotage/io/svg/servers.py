@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -23,22 +23,37 @@ MAX_SHAPES = 100
 """So many shapes of a pattern are looked at."""
 
 
-def with_plain_paints(style: Style, by_id: Mapping[str | None, Element], sheet: StyleSheet) -> Style:
-    """Put colors in place of references to gradients and patterns."""
-    found = {name: REFERENCE.fullmatch(style.values[name]) for name in ("fill", "stroke")}
-    plain = {
-        name: color_of_server(match[1], style, by_id, sheet) or match[2] or UNKNOWN
-        for name, match in found.items()
-        if match is not None
-    }
-    return replace(style, values={**style.values, **plain}) if plain else style
+@dataclass(frozen=True, eq=False)
+class PaintServers:
+    """The gradients and patterns of a drawing; each is looked at once for each setting of its variables."""
+
+    by_id: Mapping[str | None, Element]
+    sheet: StyleSheet
+    colors: dict[tuple[str, tuple[tuple[str, str], ...]], str | None] = field(default_factory=dict)
+
+    def plain(self, style: Style) -> Style:
+        """Put colors in place of references to gradients and patterns."""
+        found = {name: REFERENCE.fullmatch(style.values[name]) for name in ("fill", "stroke")}
+        plain = {
+            name: self.color_of(match[1], style) or match[2] or UNKNOWN
+            for name, match in found.items()
+            if match is not None
+        }
+        return replace(style, values={**style.values, **plain}) if plain else style
+
+    def color_of(self, name: str, style: Style) -> str | None:
+        """Return the mean color of a gradient, or the color that most of a pattern has; None if unknown."""
+        variables = {key: value for key, value in style.values.items() if key.startswith("--")}
+        asked = name, tuple(sorted(variables.items()))
+        if asked not in self.colors:
+            self.colors[asked] = color_of_server(name, variables, self.by_id, self.sheet)
+        return self.colors[asked]
 
 
 def color_of_server(
-    name: str, style: Style, by_id: Mapping[str | None, Element], sheet: StyleSheet
+    name: str, variables: Mapping[str, str], by_id: Mapping[str | None, Element], sheet: StyleSheet
 ) -> str | None:
-    """Return the mean color of a gradient, or the color that most of a pattern has; None if there is none."""
-    variables = {key: value for key, value in style.values.items() if key.startswith("--")}
+    """Return the color of a gradient or a pattern under these variables; None if there is none."""
     server = by_id.get(name)
     for _ in range(MAX_HREFS):
         if server is None:

@@ -9,7 +9,7 @@ from svgelements import Matrix, Viewbox
 
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
-from pilotage.io.svg.servers import with_plain_paints
+from pilotage.io.svg.servers import PaintServers
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
@@ -71,6 +71,7 @@ def walk(root: Element) -> Iterator[Drawn]:
     """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
     sheet = StyleSheet.of(root)
     by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
+    servers = PaintServers(by_id, sheet)
     check_size(root)
     waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
     count, handed_down = 0, 0
@@ -90,7 +91,7 @@ def walk(root: Element) -> Iterator[Drawn]:
         here = replace(
             place,
             page_from_user=Matrix(declared.get("transform", "")) * place.page_from_user,
-            style=with_plain_paints(place.style.of_child(declared), by_id, sheet),
+            style=servers.plain(place.style.of_child(declared)),
             role=role_of(element, place.role),
             thing=thing_of(element, place.thing),
             notes={**place.notes, **noted(element)},
