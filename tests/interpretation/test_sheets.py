@@ -92,6 +92,7 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("estanterías", Role.FURNITURE),
         ("Bücherregale", Role.FURNITURE),
         ("Stahltraeger", Role.IGNORE),
+        ("Fahrstuhl", Role.STAIRS),  # no chair
         ("A-Beams", Role.IGNORE),
         ("Außenwand", Role.WALL),
         ("seuils", Role.DOOR),

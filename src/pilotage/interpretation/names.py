@@ -45,7 +45,7 @@ VOCABULARY: Mapping[Role, str] = {
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
     " ventanas janela janelas raam ramen fönster ikkuna окно окна",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
-    " escaleras escada trap trappa lift elevator aufzug ascenseur ascensor escalator лестница",
+    " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
     " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture"
     " fixtures fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
@@ -57,7 +57,7 @@ VOCABULARY: Mapping[Role, str] = {
     " einrichtung inventar regal regale schrank schränke schraenke tisch tische stuhl stühle stuehle bett"
     " betten bänke baenke sessel waschbecken badewanne spüle herd leuchten steckdosen heizkörper"
     " canapé canape canapés banc bancs étagère étagères etagere etageres armoire armoires lits fauteuil"
-    " fauteuils chaise chaises bureaux lavabo lavabos baignoire sofá sofás bancos estante estantes"
+    " fauteuils chaise chaises lavabo lavabos baignoire sofá sofás bancos estante estantes"
     " estantería estanterías armario armarios silla sillas mesa mesas cama camas arredi arredamento"
     " divano divani panca panche scaffale scaffali armadio armadi sedia sedie tavolo tavoli letto letti"
     " sanitari meubels kast kasten tafel tafels stoel stoelen bedden rekken mobiliário móveis moveis"
