@@ -177,6 +177,6 @@ def without_bars(seen: Sequence[Seen], bars: Sequence[Bar], diagonal: float) -> 
     return left
 
 
-def opened(bars: Sequence[Bar]) -> tuple[Polyline, ...]:
+def opened_bars(bars: Sequence[Bar]) -> tuple[Polyline, ...]:
     """Return the openings that bars mark."""
     return tuple(Polyline(bar.ends) for bar in bars)

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.bars import find_bars, opened, without_bars
+from pilotage.interpretation.bars import find_bars, opened_bars, without_bars
 from pilotage.interpretation.dashed import find_dashed, opened_dashed
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.floors import find_floors, is_floor
@@ -131,7 +131,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         photo_from_sketch=sheet.photo_from_sheet,
         doors=(
             *(Polyline(np.array([door.hinge, door.latch])) for door in doors),
-            *opened(bars),
+            *opened_bars(bars),
             *opened_halves(halves),
             *opened_dashed(sheet, sorted(dashed)),
         ),

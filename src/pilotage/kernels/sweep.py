@@ -19,7 +19,7 @@ def sweep(
     """
     step = math.tau / directions
     cosines, sines = np.empty(3 * directions), np.empty(3 * directions)
-    for k in range(3 * directions):  # a segment begins at -pi or later, and spans no more than pi
+    for k in range(3 * directions):  # a segment lies between -2 pi and 2 pi
         cosines[k] = math.cos((k - directions) * step)
         sines[k] = math.sin((k - directions) * step)
     ranges = np.full((len(places), directions), np.float32(farthest))

@@ -67,10 +67,10 @@ class Regions:
         What is too small is merged in any case, first with that to which it is most open.
         """
         smaller, least = min(self.areas[first], self.areas[second]), min_area * total
-        opened = self.separation(first, second, smaller)
+        separation = self.separation(first, second, smaller)
         if smaller < least and not (self.named[first] and self.named[second]):
-            return min(opened, smaller / least)
-        return opened
+            return min(separation, smaller / least)
+        return separation
 
     def separation(self, first: int, second: int, smaller: float) -> float:
         """Tell how much openings separate two regions, of which the smaller has this area."""
