@@ -88,6 +88,7 @@ def test_a_drawing_of_another_building_is_noticed_for_a_while(lost_in_another_bu
 
 @pytest.mark.slow
 def test_by_a_drawing_of_another_building_the_goal_is_not_reached(lost_in_another_building):
+    """So it is on this drive; other drives by other drawings still end at a goal (decision 0032)."""
     assert Outcome.REACHED is not lost_in_another_building.outcome
 
 
