@@ -20,10 +20,10 @@ from typing import Self
 
 ROOT = Path(__file__).resolve().parents[2]
 
-SECONDS = 10.0
-"""The longest that a hostile file may take."""
+SECONDS = 60.0
+"""The longest that a hostile file may take of the processor; what grows without bound takes longer."""
 
-PATIENCE = 20.0
+PATIENCE = 5.0
 """How many times longer it may take by the clock, on a machine that does other things too."""
 
 MEGABYTES = 1_000.0
