@@ -29,7 +29,7 @@ def window_of(poses):
 
 
 @given(poses, views, st.lists(poses, max_size=5))
-def test_news_are_a_share_and_all_of_them_where_nothing_was_seen(pose, view, seen_from):
+def test_novelty_is_a_share_and_whole_where_nothing_was_seen(pose, view, seen_from):
     assert 0.0 <= novelty_at(pose, view, window_of(seen_from)) <= 1.0
     assert novelty_at(pose, view, ()) == 1.0
 
@@ -54,7 +54,7 @@ def test_who_has_seen_more_learns_less(pose, view, seen_from, further):
         (Pose2(0.25, 0.0, math.radians(15.0)), HALF, 0.75),
     ],
 )
-def test_news_of_worked_examples(pose, view, expected):
+def test_novelty_of_worked_examples(pose, view, expected):
     assert novelty_at(pose, view, window_of([Pose2.identity()])) == pytest.approx(expected)
 
 
@@ -78,7 +78,7 @@ def test_chosen_keyframes_are_some_of_the_window_the_newest_first(novelty, count
 
 
 @pytest.mark.parametrize("length", [1, 2, 7, 8, 9, 20])
-def test_keyframes_of_equal_news_are_chosen_evenly(length):
+def test_keyframes_of_equal_novelty_are_chosen_evenly(length):
     window = window_of([Pose2.identity()] * length)
     even = np.linspace(0, length - 1, min(8, length))
 

@@ -9,7 +9,7 @@ import pytest
 
 from knowing import estimate_at
 from pilotage.geometry import Pose2
-from pilotage.localization import Status
+from pilotage.localization import BlockedWay, Status
 from pilotage.maps import Route
 from pilotage.navigation.arrival import Arrival, Doubt
 from pilotage.navigation.memory import DETOUR, PLAN_EVERY, Memory
@@ -112,3 +112,15 @@ def test_a_robot_that_begins_lost_turns_by_what_its_scanner_leaves_out(beams, un
 
     assert unseen == pytest.approx(Memory.at_start(scan, lost).look_until)
     assert 0.0 == Memory.at_start(scan, known).look_until
+
+
+@pytest.mark.parametrize(("waypoint", "is_told"), [([5.0, 0.0], True), ([2.2, 0.0], False)])
+def test_a_stall_before_a_waypoint_tells_of_a_blocked_way_once(waypoint, is_told):
+    plan = Plan(Behavior.CROSS, path=PATH, leg=LEG, waypoint=np.array(waypoint))
+    told = []
+    memory = FRESH
+    for k in range(20):
+        memory = memory.updated(plan, k * PLAN_EVERY, standing(), SETTINGS)
+        told += [memory.blocked_way] if memory.blocked_way else []
+
+    assert told == ([BlockedWay((2.0, 0.0), (5.0, 0.0))] if is_told else [])

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.localization.keyframes import Keyframe, choose_keyframes, corners_in_base
+from pilotage.localization.blocked_way import log_ratio_of_ways
+from pilotage.localization.keyframes import Keyframe, choose_keyframes, corners_in_base, ways_in_base
 from pilotage.localization.motion_model import WALL_PENALTY, find_blocked
 from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
 from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
@@ -47,13 +48,18 @@ def global_search(
     for share, some in zip(KEPT, (chosen[:1], chosen[::2]), strict=True):
         scores = log_evidence(states, some, model, weight)
         states = states[:, _best(scores, max(1, count // share))]
-    scores = log_evidence(states, chosen, model, weight)
+    ways = ways_in_base(window)
+
+    def score(some: Array) -> Array:
+        return log_evidence(some, chosen, model, weight) + log_ratio_of_ways(some, ways, model.atlas)
+
+    scores = score(states)
     log_mass = Particles(states, scores + log_prior).log_mass
     for _ in range(ROUNDS):  # Metropolis: each state wanders to where it explains the window better
         moves = rng.standard_normal(states.shape) * MOVES[:, np.newaxis]
         moves[[X, Y]] *= np.exp(states[LOG_SCALE])
         tried = states + moves
-        tried_scores = log_evidence(tried, chosen, model, weight)
+        tried_scores = score(tried)
         taken = np.log(rng.random(len(scores))) < tried_scores - scores
         states = np.where(taken, tried, states)
         scores = np.where(taken, tried_scores, scores)

@@ -1,11 +1,12 @@
 """The window of keyframes: what the robot saw over the last metres, and from where."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pilotage.geometry import Pose2
+from pilotage.localization.blocked_way import BlockedWay
 from pilotage.localization.observation import Observation
 from pilotage.localization.sensor_model import SparseScan
 from pilotage.shape.corners import Corners
@@ -29,6 +30,7 @@ class Keyframe:
     odom_from_base: Pose2
     travel: float  # [m]
     novelty: float = 1.0  # [0..1] share of the scan that no keyframe of the window showed: its weight
+    blocked: tuple[BlockedWay, ...] = ()  # ways found blocked since, in the frame of the robot
 
 
 def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
@@ -71,3 +73,16 @@ def corners_in_base(window: tuple[Keyframe, ...]) -> Corners:
     for keyframe in window[:-1]:
         gathered = gathered.joined(keyframe.corners.moved(base_from_odom @ keyframe.odom_from_base))
     return gathered
+
+
+def append_blocked_way(window: tuple[Keyframe, ...], way: BlockedWay) -> tuple[Keyframe, ...]:
+    """Add a way that was found blocked, in the frame of the newest keyframe, unless it is known."""
+    if any(way.is_same(known) for known in ways_in_base(window)):
+        return window
+    return (*window[:-1], replace(window[-1], blocked=(*window[-1].blocked, way)))
+
+
+def ways_in_base(window: tuple[Keyframe, ...]) -> tuple[BlockedWay, ...]:
+    """Gather the ways found blocked at all keyframes in the frame of the newest."""
+    base_from_odom = window[-1].odom_from_base.inverse()
+    return tuple(way.moved(base_from_odom @ one.odom_from_base) for one in window for way in one.blocked)

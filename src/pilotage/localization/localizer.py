@@ -7,10 +7,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pilotage.geometry import Array, Pose2, segments_of
+from pilotage.localization.blocked_way import BlockedWay, log_ratio_of_ways
 from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import SCANS, global_search
-from pilotage.localization.keyframes import Keyframe, append_keyframe, choose_keyframes
+from pilotage.localization.keyframes import (
+    Keyframe,
+    append_blocked_way,
+    append_keyframe,
+    choose_keyframes,
+)
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.observation import Observation, observe
 from pilotage.localization.particles import Particles, join
@@ -192,23 +198,48 @@ class Localizer:
                 particles, log_null, settings.tracks.leaving * distance * math.exp(self._log_told)
             )
         log_ratio = self._window[-1].novelty * self._model.log_ratio(particles.states, scan)
-        particles = Particles(particles.states, particles.log_weights + log_ratio)
-        particles, log_null, log_total = normalized(particles, log_null)
-        self.log_evidence += log_total
-        self._log_totals = self._within_window((*self._log_totals, (self._window[-1].travel, log_total)))
+        particles, log_null = self._weighed(particles, log_null, log_ratio)
         share = 0.0 if is_first else self._search_effort()
         if share > 0.0:
             particles = join([particles, self._births(share)])
         self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
-        self._keyframe_estimate = summarize(
-            self.tracks, self._fit(scan), seen.stamp, self._window[-1].travel, self.atlas
-        )
+        self._keyframe_estimate = self._summary(self._fit(scan), seen.stamp)
         self._estimate = self._keyframe_estimate
         return self._estimate
 
-    def _within_window(self, totals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
-        """Keep what belongs to the keyframes of the window."""
-        return tuple(one for one in totals if one[0] >= self._window[0].travel)
+    def add_blocked_way(self, way: BlockedWay) -> None:
+        """Weigh all tracks by a way that the robot found blocked, in its frame at the last update.
+
+        A way that was found blocked before, over the last metres, is not counted again.
+        """
+        if self._motion is None:
+            raise ValueError("a blocked way needs a scan before it, got none")
+        last = self._keyframe_estimate
+        assert last is not None
+        window = append_blocked_way(self._window, way.moved(self._motion))
+        if window is self._window:
+            return
+        self._window = window
+        particles = self.tracks.particles
+        log_ratio = log_ratio_of_ways(particles.states, window[-1].blocked[-1:], self.atlas)
+        particles, log_null = self._weighed(particles, self.tracks.log_null, log_ratio)
+        self.tracks = cluster(particles, log_null, self.atlas, self.settings.tracks, self._rng)
+        self._keyframe_estimate = self._summary(last.fit, last.stamp)
+        now = self._keyframe_estimate.moved(self._motion, self.atlas)
+        self._estimate = replace(now, stamp=self.estimate.stamp)
+
+    def _weighed(self, particles: Particles, log_null: float, log_ratio: Array) -> tuple[Particles, float]:
+        """Multiply all masses by likelihood ratios to the null model, and keep the evidence of it."""
+        weighed = Particles(particles.states, particles.log_weights + log_ratio)
+        weighed, log_null, log_total = normalized(weighed, log_null)
+        self.log_evidence += log_total
+        totals = (*self._log_totals, (self._window[-1].travel, log_total))
+        self._log_totals = tuple(one for one in totals if one[0] >= self._window[0].travel)
+        return weighed, log_null
+
+    def _summary(self, fit: float, stamp: float) -> Estimate:
+        """Sum up what the tracks say at the newest keyframe."""
+        return summarize(self.tracks, fit, stamp, self._window[-1].travel, self.atlas)
 
     def _search_effort(self) -> float:
         """Search at every keyframe while the place is not settled, and rarely once it is; return the share.

@@ -29,6 +29,10 @@ class BlockedGateways:
         """The gateways that are blocked."""
         return tuple(self.since)
 
+    def has_more_than(self, before: "BlockedGateways") -> bool:
+        """Tell whether a gateway is blocked that was not before."""
+        return not self.since.keys() <= before.since.keys()
+
     def reopened(self, stamp: float, blocked_for: float) -> "BlockedGateways":
         """Try those again that were found blocked more than `blocked_for` [s] ago."""
         since = {one: then for one, then in self.since.items() if stamp - then < blocked_for}

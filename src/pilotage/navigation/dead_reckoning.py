@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from pilotage.geometry import Pose2, Twist, wrap_angle
-from pilotage.localization import Estimate, Localizer, Status
+from pilotage.localization import BlockedWay, Estimate, Localizer, Status
 from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry
 
@@ -49,6 +49,10 @@ class DeadReckoning:
         self.turned += abs(wrap_angle(now.theta - before.theta)) if before is not None else 0.0
         if is_first or np.hypot(*(self.trail[-1] - now.position)) > TRAIL_STEP:
             self.trail = np.vstack([self.trail, now.position])
+
+    def found_blocked(self, way: BlockedWay) -> None:
+        """Tell the localizer of a way in odom that the robot cannot take."""
+        self.localizer.add_blocked_way(way.moved(self.localizer.scan_matcher.odom_from_base.inverse()))
 
     @property
     def localized(self) -> Estimate:

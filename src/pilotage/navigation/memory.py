@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field, replace
 
-from pilotage.localization import Estimate, Status
+from pilotage.localization import BlockedWay, Estimate, Status
 from pilotage.navigation.arrival import Arrival, Doubt
 from pilotage.navigation.blocked_gateways import BlockedGateways
 from pilotage.navigation.dead_reckoning import DeadReckoning
@@ -41,6 +41,7 @@ class Memory:
     detours: int = 0  # how often the robot stalled on its route
     detour_until: float = -math.inf  # [s] stamp until which it explores because of that
     mismatch_since: float = math.inf  # [s] stamp since when the drawing does not fit
+    blocked_way: BlockedWay | None = None  # in odom, that the robot has just found blocked on its route
 
     @classmethod
     def at_start(cls, scan: LaserScan, estimate: Estimate) -> "Memory":
@@ -66,8 +67,9 @@ class Memory:
             mismatch_since=min(memory.mismatch_since, stamp) if is_mismatch else math.inf,
         )
         if memory.stall.is_stalled(settings.patience):
-            return after_stall(memory, plan, stamp)
-        return memory
+            memory = after_stall(memory, plan, stamp)
+        tried = memory.detours > self.detours or memory.blocked.has_more_than(self.blocked)
+        return replace(memory, blocked_way=plan.way_not_found if tried else None)
 
     def for_new_goal(self, stamp: float) -> "Memory":
         """Begin anew at a time [s], but keep what was found blocked."""
@@ -81,7 +83,7 @@ class Memory:
     def _after(self, plan: Plan, position: DeadReckoning, settings: NavigatorSettings) -> "Memory":
         """Take note of the last plan."""
         target = plan.path[-1] if plan.behavior is Behavior.EXPLORE else None
-        memory = replace(self, exploration=replace(self.exploration, target=target))
+        memory = replace(self, exploration=replace(self.exploration, target=target), blocked_way=None)
         if plan.arrival is not None:
             look_until = position.turned + self.unseen_angle
             memory = replace(memory, arrival=plan.arrival, look_until=look_until)

@@ -6,9 +6,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pilotage.geometry import Array
+from pilotage.localization import BlockedWay
 from pilotage.navigation.arrival import Arrival
 from pilotage.navigation.route_leg import RouteLeg
 from pilotage.navigation.step import Behavior, Outcome
+
+ROOM = 0.5
+"""Distance [m] to a waypoint from which on there is no way to it; nearer, it may lie too close to a wall."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,10 +23,23 @@ class Plan:
     stamp: float = -math.inf  # [s] when it was made
     path: Array = field(default_factory=lambda: np.empty((0, 2)))  # (k, 2) in odom [m]
     leg: RouteLeg | None = None  # the leg of the route that it follows
-    gap: float = 0.0  # [m] from the end of the path to the waypoint
+    waypoint: Array | None = None  # (2,) of that leg, in odom [m]
     arrival: Arrival | None = None  # the verdict at the goal
     outcome: Outcome | None = None  # how the drive ends here; None while it goes on
     reason: str = ""  # why it ends
+
+    @property
+    def gap(self) -> float:
+        """The distance from the end of the path to the waypoint [m]; 0 without one."""
+        return 0.0 if self.waypoint is None else float(np.hypot(*(self.path[-1] - self.waypoint)))
+
+    @property
+    def way_not_found(self) -> BlockedWay | None:
+        """The way in odom from the end of the path to the waypoint, if the path ends before it."""
+        if self.waypoint is None or self.gap < ROOM:
+            return None
+        (x, y), (to_x, to_y) = self.path[-1].tolist(), self.waypoint.tolist()
+        return BlockedWay((x, y), (to_x, to_y))
 
     @property
     def follows_route(self) -> bool:

@@ -61,8 +61,7 @@ class Situation:
         on_paper = self.estimate.sketch_from_base @ (odom_from_base.inverse() @ reachable.points)
         on_route = self.planner.atlas.are_in(self.leg.route.cell_ids, on_paper)
         index = reachable.nearest(waypoint, path_cost=PATH_COST, extra=np.where(on_route, 0.0, OFF_ROUTE))
-        gap = float(np.hypot(*(reachable.points[index] - waypoint)))
-        return Plan(Behavior.CROSS, self.stamp, reachable.path_to(index), self.leg, gap)
+        return Plan(Behavior.CROSS, self.stamp, reachable.path_to(index), self.leg, waypoint)
 
     @property
     def is_in_goal_room(self) -> bool:
