@@ -39,6 +39,7 @@ class KnowingLocalizer:
         self.atlas, self.start, self.scale, self.changed = atlas, start, scale, changed
         self.scan_matcher = SimpleNamespace(odom_from_base=Pose2.identity())
         self.estimate = None
+        self.blocked = []  # ways, in the robot's frame
 
     def update(self, scan, odometry):
         """Claim the pose that the wheels tell."""
@@ -49,6 +50,10 @@ class KnowingLocalizer:
         known = estimate_of(hypothesis_at(pose, scale=self.scale, cell_id=cell_id), stamp=scan.stamp)
         self.estimate = self.changed(known)
         return self.estimate
+
+    def add_blocked_way(self, way):
+        """Take note of a way; who knows where it is has no use for it."""
+        self.blocked.append(way)
 
     def sample(self, count):
         """Repeat the pose that it claims."""

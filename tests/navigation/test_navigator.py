@@ -25,6 +25,9 @@ from pilotage.simulation import (
     World,
 )
 
+DOOR_SHUT = replace(WORLD, doors=(Door(np.array([5.0, 2.0, 5.0, 3.0]), ((0.0, math.inf),)),))
+"""The door between the first room and the kitchen is shut all the time."""
+
 
 def knowing(changed=lambda estimate: estimate):
     return KnowingLocalizer(ATLAS, START, changed=changed)
@@ -102,9 +105,8 @@ def test_the_drawing_may_be_of_any_scale(scale):
 
 
 def test_a_closed_door_is_noticed_and_marked_and_another_way_is_taken():
-    door = Door(np.array([5.0, 2.0, 5.0, 3.0]), ((0.0, math.inf),))
-    goal = (8.5, 2.5)
-    told = driven(goal, replace(WORLD, doors=(door,)), patience=2.0, time_limit=150.0)
+    goal, localizer = (8.5, 2.5), knowing()
+    told = driven(goal, DOOR_SHUT, localizer=localizer, patience=2.0, time_limit=150.0)
 
     closed = gateway_between(START.position, goal)
     assert has_arrived(told, goal)
@@ -112,6 +114,14 @@ def test_a_closed_door_is_noticed_and_marked_and_another_way_is_taken():
     marked = [step for step in told.steps if closed in step.closed_gateway_ids]
     later = [step for step in marked if step.stamp > marked[0].stamp + 1.0]
     assert closed not in {step.gateway_id for step in later}
+    assert 1.3 == pytest.approx(math.hypot(*localizer.blocked[0].end), abs=0.3)  # a metre behind the door
+
+
+def test_a_keep_out_zone_is_no_way_that_the_robot_found_blocked():
+    localizer = zoned(keep_out=(square(0.1, 8.0, 1.0, 8.9),))
+    driven((8.5, 2.5), DOOR_SHUT, localizer=localizer, patience=2.0, time_limit=20.0)
+
+    assert [] == localizer.blocked
 
 
 def test_a_thing_that_stands_on_the_goal_is_gone_up_to():

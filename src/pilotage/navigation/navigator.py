@@ -91,7 +91,7 @@ class Navigator:
             self.memory = self.memory.with_blocked(BlockedGateways(since))
         if self.plan.outcome is None and self._is_due(scan.stamp, self.memory):
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
-            if self.memory.blocked_way is not None:
+            if self.memory.blocked_way is not None and not self.zones.keep_out:  # else a zone may block it
                 self.position.found_blocked(self.memory.blocked_way)
             situation = self._situation(scan.stamp, self.memory)
             self.memory = situation.memory
