@@ -21,7 +21,7 @@ A hairline is not: files have it where no width was chosen.
 def by_style(
     seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role]
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from those in a color, dashed ones, and thin ones not named walls."""
+    """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls."""
     thin = THIN * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
@@ -29,8 +29,9 @@ def by_style(
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
             is_colored = max(pen.color) - min(pen.color) >= COLORFUL
-            is_thin = 0.0 < pen.width < thin and named.get(mark.number) is not Role.WALL
-            is_marginal = pen.dashed or is_colored or is_thin
+            is_thin = 0.0 < pen.width < thin
+            is_named = named.get(mark.number) is Role.WALL
+            is_marginal = pen.dashed or (not is_named and (is_colored or is_thin))
             (marginal if is_marginal else main).append(mark.line)
     black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
     return shapely.multilinestrings(black), shapely.multilinestrings(other)
