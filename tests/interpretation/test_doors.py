@@ -44,6 +44,25 @@ def test_a_leaf_without_an_arc_is_a_door_if_it_stands_ajar(opened):
     assert [Role.WALL, Role.WALL, Role.DOOR] == roles((OUTSIDE, WALL, leaf))
 
 
+@pytest.mark.parametrize("opened", [20, 65, -65])
+def test_a_wall_and_the_leaf_at_its_end_may_be_one_line(opened):
+    turn = math.radians(90 - opened)
+    tip = (50 + 12 * math.cos(turn), 30 + 12 * math.sin(turn))
+    walls = stroke((50, 0), (50, 30), tip), stroke((50, 42), (50, 80))
+
+    assert are_joined((OUTSIDE, *walls))
+    assert len(interpret(Sheet((OUTSIDE, *walls))).sketch.doors) == 1
+
+
+def test_a_chart_beside_the_plan_does_not_tell_how_wide_doors_are():
+    turn = math.radians(30)
+    leaves = [stroke((50, y), (50 + 8 * math.cos(turn), y + 8 * math.sin(turn))) for y in (10, 30, 50)]
+    chart = [arc((150, 40), 25, 90 * k, 90 * k + 90) for k in (0, 1)]
+    spokes = [stroke((150, 40), end) for end in ((175, 40), (150, 65), (125, 40))]
+
+    assert len(interpret(Sheet((OUTSIDE, WALL, *leaves, *chart, *spokes))).sketch.doors) == 3
+
+
 @pytest.mark.parametrize(
     "lines",
     [

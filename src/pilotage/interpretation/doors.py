@@ -88,7 +88,8 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     ajar = [(arc, judge(arc, segments)[1]) for arc in find_leaves(sheet, seen, segments, radii)]
     ajar = [(arc, walls) for arc, walls in ajar if walls[1] == 2.0]
     leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
-    candidates = leaved or [arc for arc, *_ in ajar] or [arc for arc, *_ in judged]
+    hang = any(walls.max() == 2.0 for _, _, leaves, walls in judged if leaves.any())  # not those of a chart
+    candidates = (leaved if hang else [arc for arc, _ in ajar]) or leaved or [arc for arc, *_ in judged]
     if not candidates:
         return []
     usual = usual_width(candidates)

@@ -33,19 +33,22 @@ def find_leaves(
 ) -> list[Arc]:
     """Find straight lines from a wall into a room, ajar and free at their end: the arcs that they sweep.
 
+    Some draw a wall and its leaf as one line: of such a line, an end that nothing touches.
     `radii` are the least and largest length of a leaf. Where two begin at one point it is an arrow, no door.
     """
-    lines = [
-        outline.vertices[[0, -1]]
+    drawn = [
+        outline.vertices
         for mark in seen
         if sheet.marks[mark.number].pen is not None and not mark.line.is_empty
         for outline in sheet.marks[mark.number].outlines
-        if not outline.closed and is_straight(outline.vertices)
+        if not outline.closed
     ]
-    ends = np.array(lines + [line[::-1] for line in lines]).reshape(-1, 2, 2)  # from hinge to tip
-    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    ends = ends[(lengths >= radii[0]) & (lengths <= radii[1])]
-    ends = ends[are_free(ends, segments)]
+    alone = [line[[0, -1]] for line in drawn if is_straight(line)]
+    last = [end for line in drawn if not is_straight(line) for end in (line[[1, 0]], line[[-2, -1]])]
+    whole = between(radii, alone + [line[::-1] for line in alone])
+    parts = between(radii, last)
+    free = are_free(whole, segments, SHORT), are_free(parts, segments, 0.0)
+    ends = np.concatenate([whole[free[0]], parts[free[1]]])  # from hinge to tip
     arcs = [swept(hinge, tip, segments) for hinge, tip in ends if not is_hatching(hinge, tip, segments)]
     found = [arc for arc in arcs if arc is not None]
     hinges = shapely.points([arc.center for arc in found]) if found else np.empty(0, dtype=object)
@@ -56,12 +59,22 @@ def find_leaves(
     ]
 
 
-def are_free(ends: Array, segments: Segments) -> NDArray[np.bool_]:
-    """Tell which lines (n, 2, 2), from hinge to tip, nothing long comes near to in their outer half."""
+def between(radii: tuple[float, float], lines: Sequence[Array]) -> Array:
+    """Choose lines of a length within bounds, (n, 2, 2)."""
+    ends = np.array(lines).reshape(-1, 2, 2)
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    return np.asarray(ends[(lengths >= radii[0]) & (lengths <= radii[1])])
+
+
+def are_free(ends: Array, segments: Segments, short: float) -> NDArray[np.bool_]:
+    """Tell which lines (n, 2, 2), from hinge to tip, nothing comes near to in their outer half.
+
+    What is shorter than a share of the line may.
+    """
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     outer = shapely.linestrings(np.stack([ends.mean(axis=1), ends[:, 1]], axis=1))
     line, near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * lengths)
-    long = segments.lengths[near] >= SHORT * lengths[line]
+    long = segments.lengths[near] >= short * lengths[line]
     return np.asarray(np.bincount(line[long], minlength=len(ends)) <= 1)
 
 
