@@ -10,6 +10,7 @@ import shapely
 from pilotage.geometry import Polyline
 from pilotage.interpretation.bars import find_bars, opened_bars, without_bars
 from pilotage.interpretation.dashed import find_dashed, opened_dashed
+from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import find_doors, without_doors
 from pilotage.interpretation.floors import find_floors, is_floor
 from pilotage.interpretation.glyphs import find_glyphs
@@ -79,6 +80,8 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     }
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
+    measuring = find_dimensions(sheet, built, guessed, diagonal)
+    built = [mark for mark in built if mark.number not in measuring]
     doors = find_doors(sheet, built, diagonal)
     called_doors = {number for number, (role, _) in guessed.items() if role is Role.DOOR}
     bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
@@ -145,6 +148,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             {
                 **dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
                 **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in halves},
+                **dict.fromkeys(measuring, Meaning(Role.IGNORE, "a dimension line")),
                 **named,
             },
             built,

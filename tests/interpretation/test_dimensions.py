@@ -1,0 +1,64 @@
+"""Dimension lines part no room, and walls are none."""
+
+import math
+
+import pytest
+
+from flats import BLACK, LABELS, RED, WITH_GAP, box, graph_of, stroke
+from pilotage.interpretation import Role, Sheet, Text, interpret
+
+OUTER = [(0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80), (96, 0, 100, 80), (48, 4, 52, 30), (48, 42, 52, 76)]
+PAINTED = tuple(box(*bounds, fill=BLACK) for bounds in OUTER)
+NUMBERS = (
+    Text("4.40", (25, 22), height=2.0),
+    Text("2'-3\"", (12.5, 50), height=2.0, angle=math.radians(90)),
+)
+
+
+def ticks(*places):
+    return [stroke((x - 1, y - 1), (x + 1, y + 1)) for x, y in places]
+
+
+def arrowheads(*tips):
+    return [
+        stroke((x + 2 * dx - dy, y + 2 * dy + dx), (x, y), (x + 2 * dx + dy, y + 2 * dy - dx))
+        for x, y, dx, dy in tips
+    ]
+
+
+def roles(marks, texts):
+    return [meaning.role for meaning in interpret(Sheet(tuple(marks), texts)).meanings]
+
+
+@pytest.mark.parametrize("pen", [{}, {"color": RED}, {"dashed": True}, {"width": 0.2}])
+@pytest.mark.parametrize(("flat", "face"), [(WITH_GAP, 0), (PAINTED, 4)])
+@pytest.mark.parametrize("are_arrows", [False, True])
+def test_lines_with_a_number_and_signs_at_their_ends_part_no_room(flat, face, are_arrows, pen):
+    left, right, low, high = face, 50 - face / 2, face, 80 - face
+    lines = [stroke((left, 20), (right, 20), **pen), stroke((15, low), (15, high), **pen)]
+    if are_arrows:
+        lines += arrowheads((left, 20, 1, 0), (right, 20, -1, 0), (15, low, 0, 1), (15, high, 0, -1))
+    else:
+        lines += ticks((left, 20), (right, 20), (15, low), (15, high))
+
+    graph = graph_of((*flat, *lines), (*LABELS, *NUMBERS))
+
+    assert len(graph_of(flat).cells) == len(graph.cells)
+    assert {Role.IGNORE} == set(roles((*flat, *lines), NUMBERS)[len(flat) :])
+
+
+@pytest.mark.parametrize(
+    ("lines", "number"),
+    [
+        (ticks((0, 20), (50, 20)), Text("4.40", (25, 45), height=2.0)),  # far away
+        (ticks((0, 20), (50, 20)), Text("hall", (25, 22), height=2.0)),
+        (ticks((0, 20), (50, 20)), Text("4.40", (25, 22), height=2.0, angle=1.0)),
+        (ticks((0, 20)), Text("4.40", (25, 22), height=2.0)),
+        ([stroke((x, 20), (x, 22)) for x in (0, 50)], Text("101", (25, 22), height=2.0)),  # jambs
+        ([box(x - 1, 19, x + 1, 21, fill=BLACK) for x in (0, 50)], Text("101", (25, 22), height=2.0)),
+    ],
+)
+def test_walls_with_a_number_beside_them_are_walls(lines, number):
+    marks = (*WITH_GAP, stroke((0, 20), (50, 20)), *lines)
+
+    assert Role.WALL is roles(marks, (number,))[len(WITH_GAP)]
