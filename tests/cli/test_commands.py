@@ -128,6 +128,13 @@ def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
             "none of them from 5 to 5",
         ),
         (("simplify", worlds.OFFICE.quick, "--figure", "evolution.doc"), "must end in .png, .svg or .pdf"),
+        (("check", worlds.OFFICE.quick, "--figure", "check.gif"), "must end in .png, .svg or .pdf"),
+        (("check", "."), "a drawing is expected, found a folder"),
+        (("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "--scale", "1e-9"), "units per metre"),
+        (
+            ("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "--start", "9e6,0,0"),
+            "start lies outside",
+        ),
     ],
 )
 def test_what_goes_wrong_is_one_line_and_exit_code_1(pilotage, tmp_path, monkeypatch, words, rule):
@@ -156,6 +163,25 @@ def test_an_impossible_start_or_scale_is_a_wrong_call(pilotage, words):
 
     assert 2 == outcome.code
     assert words[0] in outcome.err
+
+
+def test_a_figure_that_cannot_be_drawn_is_refused_before_the_work(pilotage, tmp_path):
+    estimates = tmp_path / "estimates.jsonl"
+    outcome = pilotage(
+        "localize",
+        worlds.OFFICE.quick,
+        worlds.LOG,
+        "--to",
+        "9",
+        "-o",
+        estimates,
+        "--figure",
+        tmp_path / "a.bmp",
+    )
+
+    assert 1 == outcome.code
+    assert "must end in .png, .svg or .pdf" in outcome.err
+    assert not estimates.exists()
 
 
 @pytest.mark.parametrize(

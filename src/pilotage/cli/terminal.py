@@ -67,12 +67,18 @@ def keeping(path: Path | None) -> Iterator[None]:
         raise
 
 
-def check_outputs(paths: Iterable[Path | None], *, force: bool) -> None:
-    """Raise FileError if an output exists and must not be replaced, or if two outputs are the same file."""
+def check_outputs(paths: Iterable[Path | None], *, figure: Path | None = None, force: bool) -> None:
+    """Raise FileError if an output cannot be written, before the work is done.
+
+    It exists and must not be replaced, two outputs are the same file, or a figure's name tells no format.
+    """
+    from pilotage.figures.formats import format_of
     from pilotage.io.files import check_replaceable
 
+    if figure is not None:
+        format_of(figure)
     seen = set()
-    for path in paths:
+    for path in (*paths, figure):
         if path is None:
             continue
         check_replaceable(path)
