@@ -99,6 +99,8 @@ def test_start_and_goal_are_taken_from_the_drawing(call, site, tmp_path):
     ("words", "rule"),
     [
         (("--goal", "500,10"), "goal lies outside the drawing"),
+        (("--goal", "kitchen,"), "needs a name or two numbers"),
+        (("--goal", "kitchen", "--scale", "1e-9"), "units per metre"),
         (("--goal", "160,25"), "goal lies in a wall or in a place that is not free"),
         (("--goal", "office"), "stands in 2 cells"),
         (("--goal", "ballroom"), "stands in no cell, labels in cells are: kitchen, office, shed"),
