@@ -42,6 +42,13 @@ def test_version_is_told(pilotage):
     assert pilotage("--version").out.startswith("pilotage ")
 
 
+def test_the_package_can_be_run_as_a_module():
+    words = [sys.executable, "-m", "pilotage", "--version"]
+    outcome = subprocess.run(words, capture_output=True, check=False)  # noqa: S603
+
+    assert outcome.stdout.startswith(b"pilotage ")
+
+
 @pytest.mark.parametrize(
     "words",
     [
