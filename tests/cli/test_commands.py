@@ -191,6 +191,21 @@ def test_a_figure_that_cannot_be_drawn_is_refused_before_the_work(pilotage, tmp_
     assert not estimates.exists()
 
 
+def test_a_folder_that_cannot_be_written_to_is_told_before_the_work(pilotage, tmp_path, monkeypatch):
+    estimates, file = tmp_path / "estimates.jsonl", tmp_path / "file"
+    file.touch()
+    words = ("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "-o", estimates, "--figure")
+    below = pilotage(*words, file / "a.png")
+    monkeypatch.setattr("os.access", lambda folder, _mode: folder.name != "locked")
+    (tmp_path / "locked").mkdir()
+    locked = pilotage(*words, tmp_path / "locked" / "new" / "a.png")
+
+    assert (1, 1) == (below.code, locked.code)
+    assert "file is no folder" in below.err
+    assert "Permission denied" in locked.err
+    assert not estimates.exists()
+
+
 @pytest.mark.parametrize(
     "words",
     [
