@@ -42,6 +42,13 @@ def test_version_is_told(pilotage):
     assert pilotage("--version").out.startswith("pilotage ")
 
 
+def test_the_package_can_be_run_as_a_module():
+    words = [sys.executable, "-m", "pilotage", "--version"]
+    outcome = subprocess.run(words, capture_output=True, check=False)  # noqa: S603
+
+    assert outcome.stdout.startswith(b"pilotage ")
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -128,6 +135,13 @@ def test_simplify_counts_vertices_and_draws_both(pilotage, tmp_path):
             "none of them from 5 to 5",
         ),
         (("simplify", worlds.OFFICE.quick, "--figure", "evolution.doc"), "must end in .png, .svg or .pdf"),
+        (("check", worlds.OFFICE.quick, "--figure", "check.gif"), "must end in .png, .svg or .pdf"),
+        (("check", "."), "a drawing is expected, found a folder"),
+        (("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "--scale", "1e-9"), "units per metre"),
+        (
+            ("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "--start", "9e6,0,0"),
+            "start lies outside",
+        ),
     ],
 )
 def test_what_goes_wrong_is_one_line_and_exit_code_1(pilotage, tmp_path, monkeypatch, words, rule):
@@ -156,6 +170,40 @@ def test_an_impossible_start_or_scale_is_a_wrong_call(pilotage, words):
 
     assert 2 == outcome.code
     assert words[0] in outcome.err
+
+
+def test_a_figure_that_cannot_be_drawn_is_refused_before_the_work(pilotage, tmp_path):
+    estimates = tmp_path / "estimates.jsonl"
+    outcome = pilotage(
+        "localize",
+        worlds.OFFICE.quick,
+        worlds.LOG,
+        "--to",
+        "9",
+        "-o",
+        estimates,
+        "--figure",
+        tmp_path / "a.bmp",
+    )
+
+    assert 1 == outcome.code
+    assert "must end in .png, .svg or .pdf" in outcome.err
+    assert not estimates.exists()
+
+
+def test_a_folder_that_cannot_be_written_to_is_told_before_the_work(pilotage, tmp_path, monkeypatch):
+    estimates, file = tmp_path / "estimates.jsonl", tmp_path / "file"
+    file.touch()
+    words = ("localize", worlds.OFFICE.quick, worlds.LOG, "--to", "9", "-o", estimates, "--figure")
+    below = pilotage(*words, file / "a.png")
+    monkeypatch.setattr("os.access", lambda folder, _mode: folder.name != "locked")
+    (tmp_path / "locked").mkdir()
+    locked = pilotage(*words, tmp_path / "locked" / "new" / "a.png")
+
+    assert (1, 1) == (below.code, locked.code)
+    assert "file is no folder" in below.err
+    assert "Permission denied" in locked.err
+    assert not estimates.exists()
 
 
 @pytest.mark.parametrize(

@@ -99,6 +99,8 @@ def test_start_and_goal_are_taken_from_the_drawing(call, site, tmp_path):
     ("words", "rule"),
     [
         (("--goal", "500,10"), "goal lies outside the drawing"),
+        (("--goal", "kitchen,"), "needs a name or two numbers"),
+        (("--goal", "kitchen", "--scale", "1e-9"), "units per metre"),
         (("--goal", "160,25"), "goal lies in a wall or in a place that is not free"),
         (("--goal", "office"), "stands in 2 cells"),
         (("--goal", "ballroom"), "stands in no cell, labels in cells are: kitchen, office, shed"),
@@ -130,10 +132,17 @@ def test_a_drawing_without_a_closed_room_is_refused_with_its_name(call, tmp_path
     assert "lines.svg" in outcome.err
 
 
+def test_a_world_that_may_be_drawn_in_pixels_is_worth_a_remark(call, site):
+    outcome = call("--goal", "ballroom", "--world", svg(site[1], WALLS, 5.0))
+
+    assert "world.svg: this world is 1031 m across; a world is drawn in metres" in outcome.err
+
+
 @pytest.mark.parametrize(
     ("walls", "rule"),
     [
         ('<path d="M0 0H10"/>', "found none"),
+        ('<rect width="9000" height="12000"/>', "at most 2000 m across, this one would be 15000 m"),
         ('<rect width="0.35" height="9"/>', "free space that walls enclose"),
     ],
 )

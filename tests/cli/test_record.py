@@ -17,6 +17,7 @@ def test_a_journal_becomes_messages(pilotage, tmp_path):
     assert 0 == outcome.code
     poses = [one.pose.pose.position.x for _, _, one in decoded(output, "/pilotage/pose")]
     assert [5.0, 5.0, 5.0] == poses
+    assert "journal.jsonl: the drawing has no place called a; is this its journal?" in outcome.err
 
 
 def test_what_is_no_journal_or_no_name_for_an_output_is_refused_in_one_line(pilotage, tmp_path):

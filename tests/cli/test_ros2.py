@@ -54,6 +54,7 @@ def test_the_transport_is_the_one_that_was_asked_for(transport, home, monkeypatc
         (("--ros2", *DRIVE), "must be given to drive"),
         (("--ros2", "--speed", "nan"), "it must be positive, got nan"),
         (("--ros2", "--domain", "900"), "less than or equal to 232"),
+        (("--ros2", "--namespace", "robot one"), "a name of ROS has letters, digits, _ and /"),
     ],
 )
 def test_a_table_by_guessed_limits_is_refused(pilotage, tmp_path, words, rule):
@@ -77,6 +78,9 @@ ROBOT = 'radius = 0.2\nspeed = 0.4\nturn-rate = 1\nbraking = -0.5\ndomain = 7\ns
         ('radius = "big"', (), (1, "radius must be a number, got 'big'")),
         ("radius = true", (), (1, "radius must be a number, got True")),
         ("domain = 7.5", (), (1, "domain must be a whole number, got 7.5")),
+        ('namespace = "robot one"', (), (2, "no part begins with a digit, got 'robot one'")),
+        ('scan-topic = ""', (), (2, "no part begins with a digit, got ''")),
+        ("", ("--start", "9e6,0,0"), (1, "the start lies outside the drawing")),
         ('stamped = "yes"', (), (1, "stamped must be true or false, got 'yes'")),
     ],
 )

@@ -50,6 +50,17 @@ def test_the_packed_drawings_have_no_worse_findings_than_notes(world):
         assert worst(pilotage.check(open_map(path))) is None
 
 
+def test_rooms_that_are_closed_boxes_are_an_error_whether_they_have_names_or_not():
+    boxes = ([(0, 0), (9, 0), (9, 6), (0, 6), (0, 0)], [(4, 0), (4, 6)])
+    found = worst(pilotage.check(drawing(*boxes, labels=NAMES[:0])))
+    with_names = pilotage.check(drawing(*boxes, labels=(Label("Hall", (2, 3)), Label("Bath", (7, 3)))))
+
+    assert found is not None
+    assert ("no-doors", Severity.ERROR) == (found.kind, found.severity)
+    assert ("no-doors", Severity.ERROR) == (with_names[0].kind, with_names[0].severity)
+    assert {"room-without-door"} == {finding.kind for finding in with_names[1:]}
+
+
 def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():
     found = worst(pilotage.check(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN)))
 

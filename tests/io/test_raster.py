@@ -162,8 +162,9 @@ def test_pictures_that_show_nothing_are_refused(tmp_path):
 
     with pytest.raises(FileError, match="stroke, found none"):
         open_map(blank)
-    with pytest.raises(FileError, match="cannot be read"):
+    with pytest.raises(FileError, match="cannot be read") as refused:
         open_map(noise)
+    assert 1 == str(refused.value).count(str(noise))
     with pytest.raises(FileError, match="there is no such file"):
         open_map(tmp_path / "none.png")
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from buildings import coarse, flat, readings_of, walk
+from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Similarity2
 from pilotage.localization import Localizer, LocalizerSettings, Status, TrackSettings
 from pilotage.localization.global_search import global_search
@@ -190,6 +191,12 @@ def test_an_impossible_range_does_not_spoil_what_follows(atlas, far):
 @pytest.mark.parametrize("scale", [0.0, -2.0, math.nan, math.inf])
 def test_a_scale_is_positive(atlas, scale):
     with pytest.raises(ValueError, match="scale must be positive"):
+        Localizer(atlas, scale=scale)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1e4])
+def test_a_scale_that_no_building_has_is_refused(atlas, scale):
+    with pytest.raises(PilotageError, match=r"units per metre: at .* m across"):
         Localizer(atlas, scale=scale)
 
 

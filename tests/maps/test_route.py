@@ -105,6 +105,22 @@ def test_a_label_must_stand_in_one_cell():
         find_labeled(graph, "kitchen")
 
 
+@pytest.mark.parametrize(
+    "words", ["SMITH,  J.", " smith, j. ", "Bu\N{COMBINING DIAERESIS}ro", "Smith, J., Büro"]
+)
+def test_case_blanks_commas_and_the_writing_of_accents_do_not_keep_a_label_from_being_found(words):
+    graph = decomposed(*SUITE, labels=(Label("Smith, J.", (7.0, 1.0)), Label("Büro", (7.5, 2.0))))
+
+    assert graph.cell_at((7.0, 1.0)) == graph.cell_at(find_labeled(graph, words))
+
+
+def test_no_words_name_no_place():
+    graph = decomposed(*SUITE, labels=(Label("a", (1.0, 1.0)), Label("b", (7.0, 1.0))))
+
+    with pytest.raises(RouteError, match="needs a name or two numbers"):
+        find_labeled(graph, " ")
+
+
 def test_a_room_without_a_name_of_its_own_is_called_by_its_id():
     graph = decomposed(*SUITE, labels=(Label("WC", (1.0, 1.0)), Label("WC", (7.0, 1.0))))
 

@@ -44,6 +44,10 @@ def test_a_server_that_others_can_reach_needs_a_token(folder: Path) -> None:
 def test_a_folder_must_exist(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="must exist"):
         serve(tmp_path / "none", Address(), browse=False, say=print)
+    drawing = tmp_path / "office.svg"
+    drawing.touch()
+    with pytest.raises(FileError, match="a folder of drawings is expected, found a file"):
+        serve(drawing, Address(), browse=False, say=print)
 
 
 def test_without_the_extra_the_command_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

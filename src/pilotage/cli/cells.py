@@ -47,7 +47,7 @@ def cells(
     - `pilotage cells office.svg --start 120,80 --goal kitchen --figure route.png -o cells.geojson`
     - `pilotage cells scan.png --shading light-is-free`
     """
-    check_outputs([output, figure], force=force)
+    check_outputs([output], figure=figure, force=force)
     from pilotage.errors import FileError
     from pilotage.findings import report
     from pilotage.maps import DecompositionSettings, RouteSettings

@@ -55,7 +55,7 @@ def check(
     - `pilotage check plan.dxf --layer A-FURN=ignore --goal kitchen`
     - `pilotage check photo.jpg --label kitchen=120,80 --json`
     """
-    check_outputs([figure], force=force)
+    check_outputs((), figure=figure, force=force)
     from pilotage.findings import Severity, report
 
     division = division_in(settings)

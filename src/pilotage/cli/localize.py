@@ -84,7 +84,7 @@ def localize(
     - `pilotage localize office.svg run.log.gz -o out.jsonl --corrected metres.svg`
     """
     corrections = [] if corrected is None else corrected_files(corrected)
-    check_outputs([output, figure, *corrections], force=force)
+    check_outputs([output, *corrections], figure=figure, force=force)
     check_positive(scale, "--scale")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     known = None if start is None else parse_pose(start, "--start")

@@ -28,7 +28,11 @@ if TYPE_CHECKING:
     from pilotage.geometry import Pose2
     from pilotage.maps import SchematicMap
     from pilotage.maps.routing.roadmap import Point
+    from pilotage.simulation import World
 
+
+LARGE = 300.0
+"""A larger diagonal [m] of a world is worth a remark: few buildings are so large, drawings in pixels are."""
 
 CORRECTED = ("corrected.svg", "corrected.yaml")
 """What a drive leaves of the corrected drawing."""
@@ -124,6 +128,7 @@ def navigate(
 
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
     building = open_world(world)
+    tell_size(world, building)
     target = goals_on(sketch, goal)
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
@@ -162,6 +167,15 @@ def navigate(
             paths = [output / name for name in CORRECTED]
             write_corrections(navigator.planner.atlas, pilot.sightings, paths)
         say(f"See {output}.")
+
+
+def tell_size(path: Path, building: "World") -> None:
+    """Say how large a world is that may have been drawn in other units than metres."""
+    from pilotage.io.world import size_of
+
+    size = size_of(building)
+    if size > LARGE:
+        say(f"pilotage: {path.name}: this world is {size:.0f} m across; a world is drawn in metres")
 
 
 def goals_on(sketch: "SchematicMap", words: str | None) -> "list[Point | str]":

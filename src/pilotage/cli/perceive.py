@@ -30,7 +30,7 @@ def perceive(
 
     **Example:** `pilotage perceive run.log.gz --scan 120 --figure scan.png`
     """
-    check_outputs([figure], force=force)
+    check_outputs((), figure=figure, force=force)
     from pilotage.io import open_log
     from pilotage.perception import PerceptionSettings
     from pilotage.perception import perceive as see

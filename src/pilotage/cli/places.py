@@ -35,14 +35,16 @@ def parse_goals(words: str, labels: "Iterable[str]") -> "list[Point | str]":
     >>> parse_goals("kitchen, 310,120,201", ["Kitchen", "201"])
     ['kitchen', (310.0, 120.0), '201']
     """
-    known = {label.casefold() for label in labels}
-    if words.casefold().strip() in known:
+    from pilotage.maps.routing.places import folded
+
+    known = {folded(label) for label in labels}
+    if folded(words) in known:
         return [words.strip()]
     tokens = [token.strip() for token in words.split(",")]
     goals: list[Point | str] = []
     while tokens:
         numbers = finite_numbers(",".join(tokens[:2]))
-        if len(numbers) == 2 and tokens[0].casefold() not in known:
+        if len(numbers) == 2 and folded(tokens[0]) not in known:
             goals.append((numbers[0], numbers[1]))
             del tokens[:2]
         else:

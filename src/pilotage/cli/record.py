@@ -15,9 +15,13 @@ from pilotage.errors import FileError
 
 if TYPE_CHECKING:
     from pilotage.io.bags.belief import Belief, MapFrame
+    from pilotage.io.records import Record
     from pilotage.localization import Estimate
     from pilotage.maps import CellGraph, SchematicMap
     from pilotage.perception import Reading
+
+MOST_NAMES = 4
+"""Names of places that a remark lists."""
 
 
 def record(
@@ -78,6 +82,7 @@ def record(
         except (KeyError, TypeError, ValueError) as error:
             raise FileError(f"a line is no estimate of this program ({error})", log) from error
         write(output, frame, localizer.atlas.cell_graph, iter(told))
+        tell_unknown_places(log, records, localizer.atlas.cell_graph)
     else:
         readings = read_stretch(log, 0, None, scan_topic, odometry_topic)
         known = None if start is None else parse_pose(start, "--start")
@@ -89,6 +94,15 @@ def record(
         write(output, frame, localizer.atlas.cell_graph, zip(beliefs, readings, strict=True))
         say(trip.summary)
     say(f"written to {output}; the frame map has {frame.scale:.6g} drawing units per metre")
+
+
+def tell_unknown_places(log: Path, records: "Sequence[Record]", graph: "CellGraph | None") -> None:
+    """Say which places of a journal the drawing does not have: it may have been written about another one."""
+    known = {""} | (set() if graph is None else {cell.cell_id for cell in graph.cells})
+    unknown = sorted({str(one.get("cell") or "") for one in records} - known)
+    if unknown:
+        names = ", ".join(unknown[:MOST_NAMES]) + (", ..." if len(unknown) > MOST_NAMES else "")
+        say(f"pilotage: {log.name}: the drawing has no place called {names}; is this its journal?")
 
 
 def refuse_for_records(log: Path, options: Mapping[str, object]) -> None:

@@ -1,5 +1,6 @@
 """Options that say which robot is on the network and what it can do: `ros2` and `table` share them."""
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,6 +30,9 @@ CommandTopic = Annotated[str, typer.Option("--cmd-topic", help="Topic of the com
 Stamped = Annotated[
     bool, typer.Option("--stamped", help="Send TwistStamped, as robots of Jazzy and later want.")
 ]
+
+NAME = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?", re.ASCII)
+"""How ROS 2 names topics and namespaces."""
 
 KINDS = {float: "a number", int: "a whole number", str: "a text", bool: "true or false"}
 """Kinds of values in words."""
@@ -108,6 +112,19 @@ def check_limits(limits: Limits, *, drive: bool) -> None:
         check_positive(value, option)
         if drive and value is None:
             raise typer.BadParameter("it must be given to drive", param_hint=option)
+
+
+def check_names(namespace: str, scan_topic: str, odometry_topic: str, command_topic: str) -> None:
+    """Reject what cannot be the name of a topic or a namespace; a namespace may be empty."""
+    names = {"--scan-topic": scan_topic, "--odom-topic": odometry_topic, "--cmd-topic": command_topic}
+    if namespace.strip("/"):
+        names["--namespace"] = namespace
+    for option, name in names.items():
+        if not NAME.fullmatch(name):
+            raise typer.BadParameter(
+                f"a name of ROS has letters, digits, _ and /, no part begins with a digit, got {name!r}",
+                param_hint=option,
+            )
 
 
 def chosen_settings(path: Path | None, limits: Limits, length: float = 0.0) -> "Settings":

@@ -27,6 +27,7 @@ from pilotage.cli.robot import (
     Stamped,
     TurnRate,
     check_limits,
+    check_names,
     chosen_settings,
     limits_of,
 )
@@ -120,6 +121,7 @@ def ros2(
     """
     limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
     check_limits(limits, drive=drive)
+    check_names(namespace, scan_topic, odometry_topic, command_topic)
     if localize_only and (drive or goal is not None):
         raise typer.BadParameter("it excludes --drive and --goal", param_hint="--localize-only")
     check_tour(goal, patrol=patrol, returns=returns)
@@ -190,6 +192,7 @@ def open_session(
     from pilotage.errors import FileError
     from pilotage.localization.state import OtherDrawingError
     from pilotage.maps import build_atlas
+    from pilotage.navigation.goal import sketch_point
     from pilotage.ros.session import Session
     from pilotage.ros.warm_up import warm_up
 
@@ -198,7 +201,7 @@ def open_session(
         try:
             atlas = build_atlas(sketch, settings.localizer.atlas)
             warm_up(atlas, settings)
-            return Session(
+            session = Session(
                 atlas,
                 (settings.localizer, settings.navigator),
                 seed=seed,
@@ -211,6 +214,9 @@ def open_session(
             raise FileError(str(error), resume or sketch.source) from error
         except ValueError as error:
             raise FileError(str(error), sketch.source) from error
+        if start is not None:
+            sketch_point(session.atlas, start[:2], "start")
+        return session
 
 
 def saved_state(path: Path) -> "SavedState | None":

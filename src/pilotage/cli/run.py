@@ -61,8 +61,9 @@ def open_localizer(
     start: "tuple[float, float, float] | None",
     scale: float | None,
 ) -> "Localizer":
-    """Prepare the drawing."""
+    """Prepare the drawing; a start that lies in no room is refused, as by `navigate`."""
     from pilotage.localization import Localizer, LocalizerSettings
+    from pilotage.navigation.goal import sketch_point
 
     chosen = LocalizerSettings()
     if settings is not None:
@@ -71,9 +72,12 @@ def open_localizer(
         chosen = read_settings(settings).localizer
     with busy("Reading the drawing"), signals_held():
         try:
-            return Localizer(sketch, chosen, seed=seed, start=start, scale=scale)
+            localizer = Localizer(sketch, chosen, seed=seed, start=start, scale=scale)
         except ValueError as error:  # of the drawing: all else was checked before
             raise FileError(str(error), sketch.source) from error
+    if start is not None:
+        sketch_point(localizer.atlas, start[:2], "start")
+    return localizer
 
 
 @contextmanager

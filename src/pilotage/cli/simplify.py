@@ -41,7 +41,7 @@ def simplify(
 
     **Example:** `pilotage simplify office.svg --figure evolution.png`
     """
-    check_outputs([figure], force=force)
+    check_outputs((), figure=figure, force=force)
     from pilotage.shape import Simplification, simplify_all
 
     if share is None and settings is not None:

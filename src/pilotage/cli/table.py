@@ -22,6 +22,7 @@ from pilotage.cli.robot import (
     Stamped,
     TurnRate,
     check_limits,
+    check_names,
     chosen_settings,
     limits_of,
 )
@@ -98,6 +99,7 @@ def table(
         )
     limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
     check_limits(limits, drive=drive)
+    check_names(namespace, scan_topic, odometry_topic, command_topic)
     if drive and not ros2:
         raise typer.BadParameter("it needs --ros2", param_hint="--drive")
     from pilotage.web.serve import Address, serve

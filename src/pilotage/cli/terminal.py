@@ -67,18 +67,35 @@ def keeping(path: Path | None) -> Iterator[None]:
         raise
 
 
-def check_outputs(paths: Iterable[Path | None], *, force: bool) -> None:
-    """Raise FileError if an output exists and must not be replaced, or if two outputs are the same file."""
+def check_outputs(paths: Iterable[Path | None], *, figure: Path | None = None, force: bool) -> None:
+    """Raise FileError if an output cannot be written, before the work is done.
+
+    It exists and must not be replaced, its folder cannot be written to, two outputs are the same file, or a
+    figure's name tells no format.
+    """
+    from pilotage.figures.formats import format_of
     from pilotage.io.files import check_replaceable
 
+    if figure is not None:
+        format_of(figure)
     seen = set()
-    for path in paths:
+    for path in (*paths, figure):
         if path is None:
             continue
         check_replaceable(path)
+        check_folder(path)
         if path.exists() and not force:
             raise FileError("an output file is already there, --force replaces it", path)
         real = os.path.realpath(path)
         if real in seen:
             raise FileError("two outputs must not be the same file", path)
         seen.add(real)
+
+
+def check_folder(path: Path) -> None:
+    """Raise FileError if a file cannot be made in its folder, or its missing folder in the one above."""
+    folder = next(folder for folder in path.absolute().parents if folder.exists())
+    if not folder.is_dir():
+        raise FileError(f"a file cannot be written ({folder.name} is no folder)", path)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FileError("a file cannot be written (Permission denied)", path)

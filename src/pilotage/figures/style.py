@@ -11,7 +11,7 @@ from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from pilotage.errors import FileError
+from pilotage.figures.formats import format_of
 from pilotage.geometry import Array, Pose2
 from pilotage.io.files import replacing
 
@@ -136,10 +136,7 @@ def show_literally(text: Text) -> None:
 
 def save(figure: Figure, path: Path | str) -> None:
     """Write a figure whole or not at all; the name's ending tells the format (png, svg, pdf)."""
-    known = figure.canvas.get_supported_filetypes()
-    kind = Path(path).suffix.lstrip(".").lower()
-    if kind not in known:
-        raise FileError("a figure's name must end in .png, .svg or .pdf", path)
+    kind = format_of(path)
     for text in figure.findobj(Text):
         assert isinstance(text, Text)
         show_literally(text)

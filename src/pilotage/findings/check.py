@@ -8,6 +8,7 @@ from pilotage.findings.gaps import find_closed_gaps, find_idle_arrows, find_odd_
 from pilotage.findings.page import (
     find_far_strokes,
     find_marks_left_out,
+    find_no_door,
     find_scale,
     no_doors,
     nothing_enclosed,
@@ -86,6 +87,7 @@ def find_all(
 ) -> Iterator[Finding]:
     """Ask all checks."""
     yield from find_bad_ends(sketch, division.graph)
+    yield from find_no_door(division.graph)
     yield from find_parts(division.graph)
     yield from find_closed_areas(division, sketch.labels)
     yield from find_rooms_without_door(sketch, division.graph, drawn_doors(interpretation))

@@ -75,6 +75,12 @@ def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
         )
 
 
+def find_no_door(graph: CellGraph) -> Iterator[Finding]:
+    """Find that all rooms of several are closed boxes."""
+    if len(graph.cells) > 1 and not graph.gateways:
+        yield no_doors("rooms are closed, but none has a door")
+
+
 def no_doors(reason: str) -> Finding:
     """Say that all rooms are closed boxes."""
     return Finding("no-doors", Severity.ERROR, reason, "erase a piece of wall wherever a door is")

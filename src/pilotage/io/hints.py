@@ -58,7 +58,7 @@ class DrawingHints:
 def table_beside(drawing: Path) -> Path:
     """Return where the table of a drawing is, if it has one; a page in the drawing's name is left out."""
     name = drawing.name if drawing.exists() else drawing.name.rpartition("#")[0] or drawing.name
-    return drawing.with_name(name + SUFFIX)
+    return drawing.parent / (name + SUFFIX)  # `.` has no name, and is refused later on
 
 
 def read_hints(path: Path) -> DrawingHints:

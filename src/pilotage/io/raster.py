@@ -117,7 +117,9 @@ def read_picture(path: Path) -> Picture:
             rgba = np.asarray(upright(image).convert("RGBA"))
     except FileNotFoundError as error:
         raise FileError("there is no such file", path) from error
-    except (OSError, UnidentifiedImageError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+    except UnidentifiedImageError as error:  # whose message is the path
+        raise FileError("a picture cannot be read (it is damaged, or of an unknown kind)", path) from error
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise FileError(f"a picture cannot be read ({error})", path) from error
     seen = rgba[..., 3] >= OPAQUE
     colors = np.asarray(rgba[..., :3] / np.float32(255.0), dtype=np.float32)

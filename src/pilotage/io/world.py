@@ -21,6 +21,9 @@ from pilotage.simulation import World
 LEAST_ROOM = 0.1
 """Radius of the smallest robot that a world must have room for [m]."""
 
+WIDEST = 2_000.0
+"""Largest diagonal of a world [m]: a larger one was drawn in other units, and needs too much memory."""
+
 COARSEST = 100.0
 """Largest resolution of a map that is accepted [m]."""
 
@@ -34,20 +37,31 @@ MESH = 1000
 def open_world(path: str | os.PathLike[str]) -> World:
     """Read a world: a ROS map_server YAML file, or SVG (also gzipped) whose unit is the metre.
 
-    Raises FileError if the file is missing, of another kind, or has no free space.
+    Raises FileError if the file is missing, of another kind, has no free space, or is larger than a building.
     """
     file = Path(path)
     is_map = file.suffix.lower() in (".yaml", ".yml")
     world = read_map_server_world(file) if is_map else read_svg_world(file)
+    if size_of(world) > WIDEST:
+        raise FileError(
+            f"a world is in metres, at most {WIDEST:.0f} m across, this one would be {size_of(world):.0f} m",
+            file,
+        )
     if not has_room(world):
         raise FileError(f"a world in metres must have room for a disc of {LEAST_ROOM} m, found none", file)
     return world
 
 
+def size_of(world: World) -> float:
+    """Measure the diagonal of a world [m]."""
+    left, bottom, right, top = world.bounds
+    return math.hypot(right - left, top - bottom)
+
+
 def has_room(world: World) -> bool:
     """Tell whether a small robot can stand anywhere between the outermost walls."""
     left, bottom, right, top = world.bounds
-    step = max(LEAST_ROOM, math.hypot(right - left, top - bottom) / MESH)
+    step = max(LEAST_ROOM, size_of(world) / MESH)
     places = np.mgrid[left + step / 2.0 : right : step, bottom + step / 2.0 : top : step]
     return bool(world.is_free(places.reshape(2, -1).T, LEAST_ROOM).any())
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.blocked_way import BlockedWay, log_ratio_of_ways
 from pilotage.localization.estimate import Estimate, summarize
@@ -41,6 +42,12 @@ SEARCH_EVERY = 2.0
 """[m] between two searches then."""
 SETTLED_PROPOSALS = 0.25
 """Share of the proposals that such a search tries."""
+SIZES_M = (1.0, 10_000.0)
+"""A given scale that makes a drawing smaller or larger [m] was meant the other way round, or is a slip."""
+
+
+class ScaleError(PilotageError, ValueError):
+    """A scale that is given makes a drawing smaller or larger than any building."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +82,7 @@ class Localizer:
     Takes a drawing, or an atlas that was built of one before. `start`, if it is known, is x, y and, if that
     is known too, the heading [rad], in the drawing's own units and axes; `scale` is in drawing units per
     metre. Without them the robot may be anywhere, at any heading, and the drawing of any scale. Raises
-    ValueError if an argument is invalid.
+    ValueError if an argument is invalid, and ScaleError if no building is as large as a scale says.
     """
 
     def __init__(
@@ -95,6 +102,7 @@ class Localizer:
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
         self._prior = self.settings.prior
         if scale is not None:
+            check_scale(scale, self.atlas.sketch)
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
             self._prior = replace(self._prior, log_scale=self._prior.given_log_scale)
         self._rng = np.random.default_rng(seed)
@@ -292,3 +300,12 @@ class Localizer:
         particles = Particles(states, np.full(states.shape[1], -math.log(states.shape[1])))
         particles, log_null, _ = normalized(particles.plus(math.log1p(-math.exp(log_null))), log_null)
         return Tracks((Track(particles),), log_null)
+
+
+def check_scale(scale: float, sketch: SchematicMap) -> None:
+    """Reject a scale [drawing units per metre] by which the drawing would have the size of no building."""
+    size = sketch.diagonal / scale
+    if not SIZES_M[0] <= size <= SIZES_M[1]:
+        raise ScaleError(
+            f"a scale is drawing units per metre: at {scale:g} the drawing would be {size:.3g} m across"
+        )

@@ -193,6 +193,6 @@ def check_standing(world: World, world_from_base: Pose2, radius: float) -> None:
     """Reject a place where a robot of this radius [m] would stand in a wall."""
     if not world.is_free([world_from_base.position], radius)[0]:
         raise StartError(
-            f"a start must leave {radius} m around it free,"
+            f"a start must leave {radius:.3g} m around it free,"
             f" got ({world_from_base.x:.2f}, {world_from_base.y:.2f}), which is in or at a wall"
         )

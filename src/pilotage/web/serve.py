@@ -50,6 +50,8 @@ def serve(
 
     Raises FileError if there is no such folder, ServerError if the address will not do.
     """
+    if folder.is_file():
+        raise FileError("a folder of drawings is expected, found a file", folder)
     if not folder.is_dir():
         raise FileError("the folder of drawings must exist", folder)
     if wanted.host != LOCAL and len(wanted.token) < SHORTEST_TOKEN:

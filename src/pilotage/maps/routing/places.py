@@ -1,5 +1,7 @@
 """Places on a drawing as people name them: a point, or a word."""
 
+import unicodedata
+
 import numpy as np
 import rustworkx
 
@@ -10,14 +12,25 @@ SLACK = 0.005
 """How far beside a cell a point may lie, as a share of the diameter: a pencil's width off."""
 
 
+def folded(words: str) -> str:
+    r"""Write words as they are compared: without case, as single letters with their accents, single spaces.
+
+    >>> folded("  Living   ROOM "), folded("Bu\N{COMBINING DIAERESIS}ro") == folded("B\xfcro")
+    ('living room', True)
+    """
+    return unicodedata.normalize("NFC", " ".join(words.split()).casefold())
+
+
 def find_labeled(graph: CellGraph, words: str) -> Point:
     """Find where to stand in the one cell that bears a label, or else has this id; case does not matter.
 
     Raises RouteError if it is no cell, or if several bear the label.
     """
-    wanted = words.casefold().strip()
-    found = [cell for cell in graph.cells if wanted in (word.casefold() for word in cell.label.split(", "))]
-    found = found or [cell for cell in graph.cells if cell.cell_id.casefold() == wanted]
+    wanted = folded(words)
+    if not wanted:
+        raise RouteError("a place needs a name or two numbers X,Y, got nothing")
+    found = [cell for cell in graph.cells if f", {wanted}, " in f", {folded(cell.label)}, "]
+    found = found or [cell for cell in graph.cells if folded(cell.cell_id) == wanted]
     if len(found) == 1:
         return found[0].center
     if found:
