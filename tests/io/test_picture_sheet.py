@@ -178,3 +178,16 @@ def test_ink_is_no_bar_where_lines_cross():
     thin, bars = part_bars([run], depth, 1.5)
     assert [(bar[0, 0], bar[-1, 0]) for bar in bars] == [(20.5, 59.5)]
     assert [(line[0, 0], line[-1, 0]) for line in thin] == [(0.5, 20.5), (59.5, 99.5)]
+
+
+@pytest.mark.parametrize("walls", [BLACK, (120, 30, 30)])
+def test_walls_may_have_a_hue_beside_black_furniture(walls):
+    picture, pen = paper()
+    room(pen, width=16, fill=walls)
+    for x in (300, 500, 700):
+        pen.rectangle([x, 250, x + 120, 330], fill=BLACK)
+        pen.rectangle([x, 400, x + 120, 600], outline=BLACK, width=2)
+        pen.rectangle([x + 10, 410, x + 110, 590], outline=BLACK, width=2)
+    areas = [mark.outlines[0] for mark in sheet_of(colors_of(picture)).marks if mark.fill is not None]
+
+    assert pytest.approx(2.0 * (800 + 600), rel=0.01) == max(outline.length for outline in areas)
