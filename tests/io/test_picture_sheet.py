@@ -7,6 +7,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from pilotage.io.picture import sheet_of
 from pilotage.io.picture.arcs import Arc, fit_arc, with_leaf
+from pilotage.io.picture.bars import part_bars
 from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.join import join_straight
 
@@ -149,3 +150,44 @@ def test_lines_go_on_across_a_fork_and_a_gap_of_the_pen_but_not_through_a_door()
 
     assert [2, 2, 4] == sorted(map(len, joined))
     assert shapely.LineString(max(joined, key=len)).length == pytest.approx(100.0, abs=0.5)
+
+
+def test_a_bar_on_a_thin_line_is_a_mark_of_its_own_and_bars_are_alike():
+    picture, pen = paper()
+    room(pen, width=2)
+    pen.line([(600, 150), (600, 750)], fill=BLACK, width=2)
+    pen.line([(600, 300), (600, 360)], fill=BLACK, width=5)
+    pen.line([(300, 150), (360, 150)], fill=BLACK, width=6)
+    sheet = sheet_of(colors_of(picture))
+    width = min(mark.pen.width for mark in sheet.marks)
+    bars = [mark for mark in sheet.marks if mark.pen.width > 2.0 * width]
+
+    assert len(bars) == 2
+    assert len({mark.pen for mark in bars}) == 1
+    assert all(pytest.approx(60.0, abs=12.0) == mark.outlines[0].length for mark in bars)
+    assert pytest.approx(2.0 * (800 + 600) + 600, rel=0.03) == length_of(sheet)
+
+
+def test_ink_is_no_bar_where_lines_cross():
+    run = np.column_stack([np.arange(100) + 0.5, np.full(100, 10.5)])
+    depth = np.ones((20, 100), dtype=np.float32)
+    depth[:, 50:56] = 3.0  # a crossing
+    assert part_bars([run], depth, 1.5)[1] == []
+
+    depth[:, 20:60] = 3.0
+    thin, bars = part_bars([run], depth, 1.5)
+    assert [(bar[0, 0], bar[-1, 0]) for bar in bars] == [(20.5, 59.5)]
+    assert [(line[0, 0], line[-1, 0]) for line in thin] == [(0.5, 20.5), (59.5, 99.5)]
+
+
+@pytest.mark.parametrize("walls", [BLACK, (120, 30, 30)])
+def test_walls_may_have_a_hue_beside_black_furniture(walls):
+    picture, pen = paper()
+    room(pen, width=16, fill=walls)
+    for x in (300, 500, 700):
+        pen.rectangle([x, 250, x + 120, 330], fill=BLACK)
+        pen.rectangle([x, 400, x + 120, 600], outline=BLACK, width=2)
+        pen.rectangle([x + 10, 410, x + 110, 590], outline=BLACK, width=2)
+    areas = [mark.outlines[0] for mark in sheet_of(colors_of(picture)).marks if mark.fill is not None]
+
+    assert pytest.approx(2.0 * (800 + 600), rel=0.01) == max(outline.length for outline in areas)

@@ -19,6 +19,15 @@ HUES = 6
 WALLS = 0.05
 """If this share of fat ink is black or gray, walls are; what has a hue are floors, signs and titles."""
 
+ENCLOSED = 0.4
+"""But not if black ink encloses less than this share of what all ink does: then it is furniture and doors."""
+
+OPEN = 0.04
+"""Openings up to this share of the picture's diagonal are closed to see what ink encloses."""
+
+COARSE = 400
+"""For that a picture is made this small along its longer side [pixels]."""
+
 
 def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[list[Mask], Mask]:
     """Part ink that is wide enough for an area by its colors on flattened paper (height, width, 3).
@@ -33,9 +42,29 @@ def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[l
     black, deep = (fat_parts(ink & dark & hue, widths.dark) for hue in (~colored, colored))
     gray, light = (fat_parts(ink & ~dark & hue, widths.pale) for hue in (~colored, colored))
     drawn = np.count_nonzero(black | gray)
-    if drawn >= WALLS * (drawn + np.count_nonzero(deep | light)):
+    rest = np.count_nonzero(deep | light)
+    if drawn >= WALLS * (drawn + rest) and (not rest or encloses(ink & dark & ~colored | gray, ink)):
         return [gray, black], fat_parts(ink & colored, widths.dark)
     return [gray, light, black, deep], np.zeros_like(ink)
+
+
+def encloses(black: Mask, ink: Mask) -> bool:
+    """Tell whether black ink encloses a good part of what all ink encloses, with doors closed."""
+    from skimage.measure import block_reduce
+
+    step = max(1, max(ink.shape) // COARSE)
+    of_black, of_all = (enclosed(block_reduce(mask, (step, step), np.max)) for mask in (black, ink))
+    return of_black >= ENCLOSED * of_all
+
+
+def enclosed(ink: Mask) -> int:
+    """Count the pixels that ink encloses, with openings closed."""
+    from scipy.ndimage import binary_fill_holes, maximum_filter, minimum_filter
+
+    half = round(OPEN * float(np.hypot(*ink.shape)) / 2.0)
+    padded = np.pad(ink, 2 * half + 1)
+    closed = minimum_filter(maximum_filter(padded, 2 * half + 1), 2 * half + 1)
+    return int(np.count_nonzero(binary_fill_holes(closed)))
 
 
 def brightest(flat: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -15,11 +15,8 @@ from pilotage.io.picture.text import find_words
 from pilotage.io.picture.trace import Area, Line, trace
 from pilotage.io.picture.width import area_widths, depth_of, width_at
 
-ENOUGH = 2_000_000
-"""A picture of more pixels than this is read at a half, a third, ... of its size."""
-
 MOST = 2_750_000
-"""No small picture is made larger than this many pixels."""
+"""A picture of more pixels than this is made smaller, and none is made larger than this."""
 
 FEW = 1_000_000
 """A picture of fewer pixels is read at up to twice its size, for its lines are a pixel or two wide."""
@@ -73,23 +70,19 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
 
 def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
     """Make a picture a size that is good to trace; returns how many pixels one of its pixels was."""
-    height, width = colors.shape[:2]
-    if height * width < FEW:
-        from PIL import Image
+    from PIL import Image
 
-        larger = min(2.0, float(np.sqrt(MOST / (height * width))))
-        size = (round(larger * width), round(larger * height))
-        working = np.empty((size[1], size[0], 3), dtype=np.float32)
-        for k in range(3):
-            channel = Image.fromarray(colors[..., k]).resize(size, Image.Resampling.BICUBIC)
-            np.clip(np.asarray(channel), 0.0, 1.0, out=working[..., k])
-        return width / size[0], working
-    step = int(np.sqrt(height * width / ENOUGH))
-    if step < 2:
+    height, width = colors.shape[:2]
+    if FEW <= height * width <= MOST:
         return 1.0, colors
-    rows, columns = height // step, width // step
-    blocks = colors[: rows * step, : columns * step].reshape(rows, step, columns, step, 3)
-    return float(step), np.asarray(blocks.mean(axis=(1, 3)), dtype=np.float32)
+    larger = min(2.0, float(np.sqrt(MOST / (height * width))))
+    size = (round(larger * width), round(larger * height))
+    between = Image.Resampling.BICUBIC if larger > 1.0 else Image.Resampling.BOX
+    working = np.empty((size[1], size[0], 3), dtype=np.float32)
+    for k in range(3):
+        channel = Image.fromarray(colors[..., k]).resize(size, between)
+        np.clip(np.asarray(channel), 0.0, 1.0, out=working[..., k])
+    return width / size[0], working
 
 
 def to_full_size(homography: Array, scale: float) -> Homography:

@@ -1,6 +1,8 @@
 """Make lines and areas of ink: thin ink is lines along its middle, fat ink is areas."""
 
+from collections import defaultdict
 from dataclasses import dataclass
+from statistics import median
 
 import numpy as np
 import shapely
@@ -9,6 +11,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.interpretation.sheet import Color
 from pilotage.io.picture.arcs import part_arcs, with_leaf
+from pilotage.io.picture.bars import part_bars
 from pilotage.io.picture.colors import COLORED, DARK, brightest, fat_ink, hue_of
 from pilotage.io.picture.join import join_straight
 from pilotage.io.picture.skeleton import straightened, trace_runs
@@ -66,11 +69,9 @@ def trace(
     for color in fat:
         thin &= ~rimmed(color)
     thin &= ~free_signs(ink, thin, flat)
-    lines = []
-    for points in lines_of(thin, ink, pen_width):
-        rows, columns = pixels_along(points, ink.shape)
-        broad = float(np.median(width_at(depth[rows, columns])))
-        lines.append(Line(points, broad, color_of(flat[rows, columns])))
+    plain, bars = lines_of(thin, ink, depth, pen_width)
+    lines = [line_of(points, flat, depth) for points in plain]
+    lines += of_one_pen([line_of(points, flat, depth) for points in bars])
     return [area for color in fat for area in areas_of(color, flat)], lines
 
 
@@ -90,14 +91,37 @@ def free_signs(ink: Mask, thin: Mask, flat: NDArray[np.float32]) -> Mask:
     return np.asarray(free[parts])
 
 
-def lines_of(thin: Mask, ink: Mask, pen_width: float) -> list[Array]:
-    """Trace thin ink: arcs of doors smooth, all other lines as long as they go on, (n, 2) each."""
+def lines_of(
+    thin: Mask, ink: Mask, depth: NDArray[np.float32], pen_width: float
+) -> tuple[list[Array], list[Array]]:
+    """Trace thin ink: arcs of doors smooth, all other lines as long as they go on, and bars, (n, 2) each."""
     runs, mean_width = trace_runs(thin)
     radii = (DOORS[0] * float(np.hypot(*thin.shape)), DOORS[1] * float(np.hypot(*thin.shape)))
     parts = [part_arcs(run, pen_width, radii) for run in runs]
-    others = straightened([run for rest, _ in parts for run in rest if len(run) > 1], mean_width)
+    others, bars = part_bars([run for rest, _ in parts for run in rest if len(run) > 1], depth, pen_width)
     arcs = [arc for _, found in parts for arc in found]
-    return [*join_straight(others, pen_width), *(line for arc in arcs for line in with_leaf(arc, ink).lines)]
+    lines = join_straight(straightened(others, mean_width), pen_width)
+    lines += [line for arc in arcs for line in with_leaf(arc, ink).lines]
+    return lines, straightened(bars, mean_width)
+
+
+def line_of(points: Array, flat: NDArray[np.float32], depth: NDArray[np.float32]) -> Line:
+    """Take width and color of a line (n, 2) from the ink below it."""
+    rows, columns = pixels_along(points, depth.shape)
+    broad = float(np.median(width_at(depth[rows, columns])))
+    return Line(points, broad, color_of(flat[rows, columns]))
+
+
+def of_one_pen(bars: list[Line]) -> list[Line]:
+    """Give bars of one hue one width and one color."""
+    pens: dict[int, list[Line]] = defaultdict(list)
+    for bar in bars:
+        pens[hue_of(bar.color)].append(bar)
+    return [
+        Line(bar.points, median([one.width for one in alike]), color_of(np.array([b.color for b in alike])))
+        for alike in pens.values()
+        for bar in alike
+    ]
 
 
 def pixels_along(points: Array, shape: tuple[int, ...]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
