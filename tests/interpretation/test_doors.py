@@ -46,12 +46,27 @@ def test_a_leaf_without_an_arc_is_a_door_if_it_stands_ajar(opened):
 
 @pytest.mark.parametrize("opened", [20, 65, -65])
 def test_a_wall_and_the_leaf_at_its_end_may_be_one_line(opened):
-    turn = math.radians(90 - opened)
-    tip = (50 + 12 * math.cos(turn), 30 + 12 * math.sin(turn))
-    walls = stroke((50, 0), (50, 30), tip), stroke((50, 42), (50, 80))
+    walls = walls_with_leaves(opened, places=(30, 80, 120))
 
-    assert are_joined((OUTSIDE, *walls))
-    assert len(interpret(Sheet((OUTSIDE, *walls))).sketch.doors) == 1
+    assert len(interpret(Sheet((OUTSIDE, *walls))).sketch.doors) == 3
+
+
+def test_a_wall_that_ends_in_a_line_ajar_is_a_wall():
+    sheet = Sheet((OUTSIDE, *walls_with_leaves(65, places=(30, 80))))
+
+    assert interpret(sheet).sketch.doors == ()
+    assert {Role.WALL} == set(roles(sheet.marks))
+
+
+def walls_with_leaves(opened, places):
+    """Draw walls up the sheet at some places; each ends in a leaf, and goes on behind the door."""
+    turn = math.radians(90 - opened)
+    step = 12 * math.cos(turn), 12 * math.sin(turn)
+    return [
+        line
+        for x in places
+        for line in (stroke((x, 0), (x, 30), (x + step[0], 30 + step[1])), stroke((x, 42), (x, 80)))
+    ]
 
 
 def test_a_chart_beside_the_plan_does_not_tell_how_wide_doors_are():

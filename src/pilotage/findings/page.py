@@ -71,7 +71,7 @@ def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
             "left-out",
             Severity.NOTE,
             f"left out: {', '.join(interpretation.sheet.left_out)}",
-            "it matters only if walls are among it",
+            "it matters only if walls of this floor are among it",
         )
 
 

@@ -40,6 +40,9 @@ JAMB = 0.06
 THROUGH = 0.5
 """How far a wall is cut to either side of an opening, as a share of its width: no wall is thicker."""
 
+FEW = 3
+"""Fewer walls that end in a line ajar are walls; who draws wall and leaf as one line does so more often."""
+
 TWINS = 0.2
 """Arcs whose centers and radii differ by less than this share of the radius draw one door."""
 
@@ -87,6 +90,8 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     judged = [one for one in judged if not one[0].is_part or is_notch(one[0], *one[2:])]
     ajar = [(arc, judge(arc, segments)[1]) for arc in find_leaves(sheet, seen, segments, radii)]
     ajar = [(arc, walls) for arc, walls in ajar if walls[1] == 2.0]
+    if sum(arc.is_part for arc, _ in ajar) < FEW:
+        ajar = [(arc, walls) for arc, walls in ajar if not arc.is_part]
     leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
     hang = any(walls.max() == 2.0 for _, _, leaves, walls in judged if leaves.any())  # not those of a chart
     candidates = (leaved if hang else [arc for arc, _ in ajar]) or leaved or [arc for arc, *_ in judged]

@@ -47,9 +47,13 @@ def find_leaves(
     last = [end for line in drawn if not is_straight(line) for end in (line[[1, 0]], line[[-2, -1]])]
     whole = between(radii, alone + [line[::-1] for line in alone])
     parts = between(radii, last)
-    free = are_free(whole, segments, SHORT), are_free(parts, segments, 0.0)
-    ends = np.concatenate([whole[free[0]], parts[free[1]]])  # from hinge to tip
-    arcs = [swept(hinge, tip, segments) for hinge, tip in ends if not is_hatching(hinge, tip, segments)]
+    whole, parts = whole[are_free(whole, segments, SHORT)], parts[are_free(parts, segments, 0.0)]
+    arcs = [
+        swept(hinge, tip, segments, is_part=is_part)
+        for ends, is_part in ((whole, False), (parts, True))
+        for hinge, tip in ends  # from hinge to tip
+        if not is_hatching(hinge, tip, segments)
+    ]
     found = [arc for arc in arcs if arc is not None]
     hinges = shapely.points([arc.center for arc in found]) if found else np.empty(0, dtype=object)
     reach = np.array([AT * arc.radius for arc in found])
@@ -86,7 +90,7 @@ def is_straight(points: Array) -> bool:
     return bool(strays.max() <= AT / 2.0 * (along @ along))
 
 
-def swept(hinge: Array, tip: Array, segments: Segments) -> Arc | None:
+def swept(hinge: Array, tip: Array, segments: Segments, *, is_part: bool) -> Arc | None:
     """Return the arc from a leaf to its wall; None if it is no leaf."""
     leaf = tip - hinge
     length = float(np.hypot(*leaf))
@@ -101,7 +105,7 @@ def swept(hinge: Array, tip: Array, segments: Segments) -> Arc | None:
             first = np.arctan2(leaf[1], leaf[0])
             angles = np.linspace(first, first - angle, CHORDS + 1)
             points = hinge + length * np.column_stack([np.cos(angles), np.sin(angles)])
-            return Arc(hinge, length, points[[0, -1]], points, float(abs(angle)))
+            return Arc(hinge, length, points[[0, -1]], points, float(abs(angle)), is_part)
     return None
 
 
