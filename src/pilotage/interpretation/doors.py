@@ -43,6 +43,9 @@ THROUGH = 0.5
 FEW = 3
 """Fewer walls that end in a line ajar are walls; who draws wall and leaf as one line does so more often."""
 
+SIGNS = 1.0 / 3.0
+"""If fewer of the arcs as wide as doors are doors, none is: a hand draws walls with bends."""
+
 TWINS = 0.2
 """Arcs whose centers and radii differ by less than this share of the radius draw one door."""
 
@@ -99,6 +102,8 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
         return []
     usual = usual_width(candidates)
     drawn = [one for one in judged if is_drawn(one[0], *one[2:], usual, leaved)]
+    if len(drawn) < SIGNS * sum(is_like(arc, usual) for arc, *_ in judged):
+        drawn = []
     sides = [(arc, leaves, walls) for arc, _, leaves, walls in drawn]
     doors = [
         Door(ends[0], ends[1], arc, marks)

@@ -22,6 +22,9 @@ Mask = NDArray[np.bool_]
 DOORS = (0.01, 0.12)
 """Doors are this wide, as shares of the picture's diagonal."""
 
+LEAVES = 0.25
+"""If a smaller share of the arcs has a leaf, they are bends: a hand draws walls so."""
+
 RIM = 2
 """Ink is blurred over so many pixels."""
 
@@ -98,10 +101,12 @@ def lines_of(
     runs, mean_width = trace_runs(thin)
     radii = (DOORS[0] * float(np.hypot(*thin.shape)), DOORS[1] * float(np.hypot(*thin.shape)))
     parts = [part_arcs(run, pen_width, radii) for run in runs]
+    arcs = [with_leaf(arc, ink) for _, found in parts for arc in found]
+    if sum(arc.has_leaf for arc in arcs) < LEAVES * len(arcs):
+        parts, arcs = [(runs, [])], []
     others, bars = part_bars([run for rest, _ in parts for run in rest if len(run) > 1], depth, pen_width)
-    arcs = [arc for _, found in parts for arc in found]
     lines = join_straight(straightened(others, mean_width), pen_width)
-    lines += [line for arc in arcs for line in with_leaf(arc, ink).lines]
+    lines += [line for arc in arcs for line in arc.lines]
     return lines, straightened(bars, mean_width)
 
 
