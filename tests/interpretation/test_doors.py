@@ -69,6 +69,14 @@ def walls_with_leaves(opened, places):
     ]
 
 
+@pytest.mark.parametrize(("bends", "doors"), [(1, 1), (6, 0)])
+def test_bends_of_a_hand_are_no_doors_even_if_one_seems_to_have_a_leaf(bends, doors):
+    drawn = [arc((20 + 8 * k, 60), 10, 0, 90) for k in range(1, 1 + bends)]
+    leaved = arc((50, 30), 12, 0, 90), stroke((50, 30), (62, 30)), stroke((50, 42), (50, 80))
+
+    assert doors == len(interpret(Sheet((OUTSIDE, *drawn, *leaved))).sketch.doors)
+
+
 def test_a_chart_beside_the_plan_does_not_tell_how_wide_doors_are():
     turn = math.radians(30)
     leaves = [stroke((50, y), (50 + 8 * math.cos(turn), y + 8 * math.sin(turn))) for y in (10, 30, 50)]

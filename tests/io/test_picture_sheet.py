@@ -125,6 +125,15 @@ def test_a_door_is_a_smooth_arc_that_ends_at_its_leaf():
     assert np.abs(strays).max() < 4.0
 
 
+def test_rooms_that_a_hand_draws_with_bends_are_lines_in_one_piece():
+    picture, pen = paper()
+    for x in range(150, 1000, 200):
+        pen.arc([x, 300, x + 200, 500], 180, 270, fill=BLACK, width=5)
+        pen.line([(x, 400), (x, 440), (x + 100, 440), (x + 100, 302)], fill=BLACK, width=5)
+
+    assert 5 == len(sheet_of(colors_of(picture)).marks)
+
+
 def test_a_leaf_is_found_where_ink_is():
     ink = np.zeros((200, 200), dtype=bool)
     ink[100:180, 99:102] = True
