@@ -3,7 +3,7 @@
     python -m benchmarks readme [--check]
 
 The text between `<!-- measured: NAME -->` and `<!-- end -->` is replaced. Below each table stand the command,
-the commit and the date of its run; a table that was measured on other code than the latest one is marked.
+the commit and the date of its run; a table of other code than most of the latest day is marked.
 """
 
 import argparse
@@ -72,7 +72,7 @@ def body(name: str, measurement: Measurement | None, latest: str) -> str:
 def origin(measurement: Measurement, latest: str) -> str:
     """Tell where figures come from, and mark those of other code than the latest."""
     machine = measurement.machine
-    mark = "" if measurement.commit == latest else f" **Other code than the latest tables ({latest}).**"
+    mark = "" if measurement.commit == latest else f" **Other code than most tables ({latest}).**"
     return (
         f"*`{measurement.command}`, commit {measurement.commit}, {measurement.date}, {machine['cpu']},"
         f" {machine['cores']} cores, Python {machine['python']}.*{mark}"
