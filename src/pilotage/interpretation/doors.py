@@ -43,7 +43,7 @@ THROUGH = 0.5
 FEW = 3
 """Fewer walls that end in a line ajar are walls; who draws wall and leaf as one line does so more often."""
 
-SIGNS = 1.0 / 3.0
+SIGNS = 0.25
 """If fewer of the arcs as wide as doors are doors, none is: a hand draws walls with bends."""
 
 TWINS = 0.2
