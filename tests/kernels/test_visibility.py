@@ -103,10 +103,10 @@ def test_no_stretch_turns_and_lengthens_nothing():
     assert (lengthened[middle, middle] == 0).all()
 
 
-def test_a_step_through_a_wall_is_blocked():
+def test_a_step_through_a_wall_crosses_it():
     starts = np.array([[0.0, 0.0, 1.5, 5.0], [0.0, 0.0, 0.0, 0.0]])
     steps = np.array([[1.8, 2.5, 1.0, 0.1], [0.0, 0.0, 0.0, 0.0]])
 
-    blocked = kernel.find_blocked(starts, steps, LEVELS, GRID, 1)
+    crossing = kernel.cross_walls(starts, steps, LEVELS, GRID, 1)
 
-    assert [False, True, True, True] == blocked.tolist()
+    assert [False, True, True, True] == crossing.tolist()

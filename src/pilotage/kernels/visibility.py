@@ -106,7 +106,7 @@ def sum_over_beams(
 
 
 @njit(cache=True)
-def find_blocked(
+def cross_walls(
     starts: NDArray[np.float64],
     steps: NDArray[np.float64],
     log_ranges: NDArray[np.uint8],
@@ -118,16 +118,16 @@ def find_blocked(
     A step may be longer than the way to the wall by `tolerance` steps of LOG_STEP.
     """
     left, bottom, cell, columns, rows = grid
-    blocked = np.zeros(starts.shape[1], np.bool_)
+    crossing = np.zeros(starts.shape[1], np.bool_)
     directions = log_ranges.shape[1]
     for i in range(starts.shape[1]):
         column = math.floor((starts[0, i] - left) / cell)
         row = math.floor((starts[1, i] - bottom) / cell)
         length = math.hypot(steps[0, i], steps[1, i])
         if not (0 <= column < columns and 0 <= row < rows):
-            blocked[i] = True
+            crossing[i] = True
         elif length > 0.0:
             direction = round(math.atan2(steps[1, i], steps[0, i]) / math.tau * directions) % directions
             way = int(log_ranges[column * rows + row, direction]) - LOG_ZERO + tolerance
-            blocked[i] = math.log(length / cell) > way * LOG_STEP
-    return blocked
+            crossing[i] = math.log(length / cell) > way * LOG_STEP
+    return crossing

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array, Pose2
-from pilotage.localization.motion_model import find_blocked
+from pilotage.localization.motion_model import cross_walls
 from pilotage.localization.particles import X, Y, displacements
 from pilotage.maps import Atlas
 
@@ -42,6 +42,6 @@ def log_ratio_of_ways(states: Array, ways: Iterable[BlockedWay], atlas: Atlas) -
         from_there = states.copy()
         from_there[[X, Y]] += displacements(states, *way.start)
         x, y = np.subtract(way.end, way.start).tolist()
-        is_walled = find_blocked(from_there, displacements(states, x, y), atlas)
+        is_walled = cross_walls(from_there, displacements(states, x, y), atlas)
         total -= FREE_PENALTY * ~is_walled
     return total

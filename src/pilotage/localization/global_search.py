@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.localization.blocked_way import log_ratio_of_ways
 from pilotage.localization.keyframes import Keyframe, choose_keyframes, corners_in_base, ways_in_base
-from pilotage.localization.motion_model import WALL_PENALTY, find_blocked
+from pilotage.localization.motion_model import WALL_PENALTY, cross_walls
 from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
 from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
 from pilotage.localization.sensor_model import SensorModel
@@ -82,7 +82,7 @@ def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorMo
         then[HEADING] += base_from_then.theta
         scores += weight * model.log_ratio(then, keyframe.scan)
         if keyframe is not keyframes[0]:
-            scores -= WALL_PENALTY * find_blocked(then, later - then[:2], model.atlas)
+            scores -= WALL_PENALTY * cross_walls(then, later - then[:2], model.atlas)
         later = then[:2]
     return scores
 

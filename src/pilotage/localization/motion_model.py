@@ -55,7 +55,7 @@ def propagate(
         factor * (motion.x + motion_std * noise[1]),
         factor * (motion.y + motion_std * noise[2]),
     )
-    blocked = find_blocked(particles.states, steps, atlas)
+    crossing = cross_walls(particles.states, steps, atlas)
     states = particles.states.copy()
     position_std = POSITION_DRIFT * root * np.exp(states[LOG_SCALE])
     states[X] += steps[0] + position_std * noise[3]
@@ -68,15 +68,15 @@ def propagate(
         (STRETCH_Q, 0.0, STRETCH_DRIFT * root, prior.stretch, noise[8]),
     ):  # an Ornstein-Uhlenbeck process whose stationary distribution is the prior
         states[row] += drift * normal - (states[row] - mean) * min(drift**2 / (2.0 * std**2), 1.0)
-    return Particles(states, particles.log_weights - WALL_PENALTY * blocked)
+    return Particles(states, particles.log_weights - WALL_PENALTY * crossing)
 
 
-def find_blocked(states: Array, steps: Array, atlas: Atlas) -> NDArray[np.bool_]:
+def cross_walls(states: Array, steps: Array, atlas: Atlas) -> NDArray[np.bool_]:
     """Tell which steps (2, n) [drawing units] run through a drawn wall, (n,)."""
     table = atlas.range_table
     tolerance = round(WALL_TOLERANCE / kernels.visibility.LOG_STEP)
     starts = np.ascontiguousarray(states[:2])
-    blocked: NDArray[np.bool_] = kernels.visibility.find_blocked(
+    crossing: NDArray[np.bool_] = kernels.visibility.cross_walls(
         starts, steps, table.log_ranges, table.grid, tolerance
     )
-    return blocked
+    return crossing
