@@ -20,14 +20,14 @@ SAME = 1.0
 
 @dataclass(frozen=True, slots=True)
 class BlockedWay:
-    """A straight way in the robot's frame that it cannot take."""
+    """A straight way that the robot cannot take: found in odom, kept in the frame of a keyframe's robot."""
 
     start: tuple[float, float]  # [m] as near as the robot can get
     end: tuple[float, float]  # [m] where it cannot get
 
-    def moved(self, target_from_base: Pose2) -> "BlockedWay":
+    def moved(self, target_from_here: Pose2) -> "BlockedWay":
         """Return the way in another frame."""
-        start, end = (target_from_base @ np.array([self.start, self.end])).tolist()
+        start, end = (target_from_here @ np.array([self.start, self.end])).tolist()
         return BlockedWay((start[0], start[1]), (end[0], end[1]))
 
     def is_same(self, other: "BlockedWay") -> bool:
@@ -36,12 +36,12 @@ class BlockedWay:
 
 
 def log_ratio_of_ways(states: Array, ways: Iterable[BlockedWay], atlas: Atlas) -> Array:
-    """Return the log-odds of each state (6, n), given that these ways are blocked, (n,)."""
+    """Sum the log-likelihood ratios [nats] of ways in the robot's frame, for states (6, n), (n,)."""
     total = np.zeros(states.shape[1])
     for way in ways:
-        from_there = states.copy()
-        from_there[[X, Y]] += displacements(states, *way.start)
+        starts = states.copy()
+        starts[[X, Y]] += displacements(states, *way.start)
         x, y = np.subtract(way.end, way.start).tolist()
-        is_walled = cross_walls(from_there, displacements(states, x, y), atlas)
-        total -= FREE_PENALTY * ~is_walled
+        is_free = ~cross_walls(starts, displacements(states, x, y), atlas)
+        total -= FREE_PENALTY * is_free
     return total

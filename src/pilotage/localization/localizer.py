@@ -6,7 +6,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.blocked_way import BlockedWay, log_ratio_of_ways
 from pilotage.localization.estimate import Estimate, summarize
@@ -21,7 +20,7 @@ from pilotage.localization.keyframes import (
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.observation import Observation, observe
 from pilotage.localization.particles import Particles, join
-from pilotage.localization.prior import Prior, draw_anywhere, draw_near
+from pilotage.localization.prior import Prior, check_scale, draw_anywhere, draw_near
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
 from pilotage.localization.state import LocalizerState, fingerprint
 from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized
@@ -42,12 +41,6 @@ SEARCH_EVERY = 2.0
 """[m] between two searches then."""
 SETTLED_PROPOSALS = 0.25
 """Share of the proposals that such a search tries."""
-SIZES_M = (1.0, 10_000.0)
-"""A given scale that makes a drawing smaller or larger [m] was meant the other way round, or is a slip."""
-
-
-class ScaleError(PilotageError, ValueError):
-    """A scale that is given makes a drawing smaller or larger than any building."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,14 +88,12 @@ class Localizer:
         scale: float | None = None,
     ) -> None:
         self.settings = settings if settings is not None else LocalizerSettings()
-        if scale is not None and not (scale > 0.0 and math.isfinite(scale)):
-            raise ValueError(f"scale must be positive and finite, got {scale}")
         if start is not None and not (len(start) in {2, 3} and all(map(math.isfinite, start))):
             raise ValueError(f"start must be x, y and a heading, all finite, got {start}")
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
         self._prior = self.settings.prior
         if scale is not None:
-            check_scale(scale, self.atlas.sketch)
+            check_scale(scale, self.atlas.sketch.diagonal)
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
             self._prior = replace(self._prior, log_scale=self._prior.given_log_scale)
         self._rng = np.random.default_rng(seed)
@@ -300,12 +291,3 @@ class Localizer:
         particles = Particles(states, np.full(states.shape[1], -math.log(states.shape[1])))
         particles, log_null, _ = normalized(particles.plus(math.log1p(-math.exp(log_null))), log_null)
         return Tracks((Track(particles),), log_null)
-
-
-def check_scale(scale: float, sketch: SchematicMap) -> None:
-    """Reject a scale [drawing units per metre] by which the drawing would have the size of no building."""
-    size = sketch.diagonal / scale
-    if not SIZES_M[0] <= size <= SIZES_M[1]:
-        raise ScaleError(
-            f"a scale is drawing units per metre: at {scale:g} the drawing would be {size:.3g} m across"
-        )

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Pose2
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y, displacements
 from pilotage.maps import Atlas
@@ -12,6 +13,13 @@ from pilotage.shape.corners import Corners
 
 MAX_TURN_DIFFERENCE = math.radians(30.0)
 """A seen and a drawn corner may be the same if their turns differ by less: angles are drawn a little off."""
+
+SIZES = (1.0, 10_000.0)
+"""Diagonals of a drawing [m]: a scale that says less or more was meant the other way round, or is a slip."""
+
+
+class ScaleError(PilotageError, ValueError):
+    """A scale that is given makes a drawing smaller or larger than any building."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +37,20 @@ class Prior:
         for name in self.__slots__:
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name} must be > 0 and finite, got {getattr(self, name)}")
+
+
+def check_scale(scale: float, diagonal: float) -> None:
+    """Reject a scale [drawing units per metre] by which a drawing of this diagonal [units] is no building.
+
+    Raises ScaleError, or ValueError if the scale is not positive and finite.
+    """
+    if not (scale > 0.0 and math.isfinite(scale)):
+        raise ValueError(f"scale must be positive and finite, got {scale}")
+    if not SIZES[0] <= diagonal / scale <= SIZES[1]:
+        raise ScaleError(
+            f"a scale is drawing units per metre: at {scale:g} the drawing would be"
+            f" {diagonal / scale:.3g} m across"
+        )
 
 
 def draw_anywhere(atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:

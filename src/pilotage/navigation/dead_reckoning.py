@@ -50,7 +50,7 @@ class DeadReckoning:
         if is_first or np.hypot(*(self.trail[-1] - now.position)) > TRAIL_STEP:
             self.trail = np.vstack([self.trail, now.position])
 
-    def found_blocked(self, way: BlockedWay) -> None:
+    def tell_blocked_way(self, way: BlockedWay) -> None:
         """Tell the localizer of a way in odom that the robot cannot take."""
         self.localizer.add_blocked_way(way.moved(self.localizer.scan_matcher.odom_from_base.inverse()))
 

@@ -69,7 +69,7 @@ class Memory:
         if memory.stall.is_stalled(settings.patience):
             memory = after_stall(memory, plan, stamp)
         tried = memory.detours > self.detours or memory.blocked.has_more_than(self.blocked)
-        return replace(memory, blocked_way=plan.way_not_found if tried else None)
+        return replace(memory, blocked_way=plan.blocked_way if tried else None)
 
     def for_new_goal(self, stamp: float) -> "Memory":
         """Begin anew at a time [s], but keep what was found blocked."""

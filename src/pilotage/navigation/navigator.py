@@ -92,7 +92,7 @@ class Navigator:
         if self.plan.outcome is None and self._is_due(scan.stamp, self.memory):
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
             if self.memory.blocked_way is not None and not self.zones.keep_out:  # else a zone may block it
-                self.position.found_blocked(self.memory.blocked_way)
+                self.position.tell_blocked_way(self.memory.blocked_way)
             situation = self._situation(scan.stamp, self.memory)
             self.memory = situation.memory
             plan = make_plan(situation)

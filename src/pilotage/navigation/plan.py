@@ -11,8 +11,8 @@ from pilotage.navigation.arrival import Arrival
 from pilotage.navigation.route_leg import RouteLeg
 from pilotage.navigation.step import Behavior, Outcome
 
-ROOM = 0.5
-"""Distance [m] to a waypoint from which on there is no way to it; nearer, it may lie too close to a wall."""
+TOO_FAR = 0.5
+"""A path that ends farther than this [m] from its waypoint found no way to it; nearer, it stops at a wall."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +34,9 @@ class Plan:
         return 0.0 if self.waypoint is None else float(np.hypot(*(self.path[-1] - self.waypoint)))
 
     @property
-    def way_not_found(self) -> BlockedWay | None:
+    def blocked_way(self) -> BlockedWay | None:
         """The way in odom from the end of the path to the waypoint, if the path ends before it."""
-        if self.waypoint is None or self.gap < ROOM:
+        if self.waypoint is None or self.gap < TOO_FAR:
             return None
         (x, y), (to_x, to_y) = self.path[-1].tolist(), self.waypoint.tolist()
         return BlockedWay((x, y), (to_x, to_y))
