@@ -49,7 +49,7 @@ def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], d
         return set()
     tree = shapely.STRtree(shapely.points([tip for *_, tip in signs]))
     written = shapely.STRtree(shapely.points([text.position for text in texts]))
-    reach = BESIDE * max(text.height or HEIGHT * diagonal for text in texts)
+    reach = BESIDE * max(height_of(text, diagonal) for text in texts)
     lines = [
         (mark.number, ends) for mark in unnamed if (ends := line_of(sheet.marks[mark.number])) is not None
     ]
@@ -110,5 +110,10 @@ def stands_along(text: Text, ends: Array, diagonal: float) -> bool:
     step = np.array(text.position) - ends[0]
     aside = abs(along[0] * step[1] - along[1] * step[0])
     turn = abs(along[0] * math.sin(text.angle) - along[1] * math.cos(text.angle))
-    height = text.height or HEIGHT * diagonal
-    return bool(0.0 < step @ along < length and aside <= BESIDE * height and turn <= TURNED)
+    is_near = aside <= BESIDE * height_of(text, diagonal)
+    return bool(0.0 < step @ along < length and is_near and turn <= TURNED)
+
+
+def height_of(text: Text, diagonal: float) -> float:
+    """Return the height of words, a usual one if the file does not tell it."""
+    return text.height or HEIGHT * diagonal

@@ -43,8 +43,8 @@ THROUGH = 0.5
 FEW = 3
 """Fewer walls that end in a line ajar are walls; who draws wall and leaf as one line does so more often."""
 
-SIGNS = 0.25
-"""If fewer of the arcs as wide as doors are doors, none is: a hand draws walls with bends."""
+DOORS = 0.25
+"""If a smaller share of the arcs as wide as doors are doors, none is: a hand draws walls with bends."""
 
 TWINS = 0.2
 """Arcs whose centers and radii differ by less than this share of the radius draw one door."""
@@ -91,29 +91,33 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     segments = segments_of(seen)
     judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
     judged = [one for one in judged if not one[0].is_part or is_notch(one[0], *one[2:])]
-    ajar = [(arc, judge(arc, segments)[1]) for arc in find_leaves(sheet, seen, segments, radii)]
-    ajar = [(arc, walls) for arc, walls in ajar if walls[1] == 2.0]
-    if sum(arc.is_part for arc, _ in ajar) < FEW:
-        ajar = [(arc, walls) for arc, walls in ajar if not arc.is_part]
+    ajar = without_odd_walls(
+        [arc for arc in find_leaves(sheet, seen, segments, radii) if judge(arc, segments)[1][1] == 2.0]
+    )
     leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
     hang = any(walls.max() == 2.0 for _, _, leaves, walls in judged if leaves.any())  # not those of a chart
-    candidates = (leaved if hang else [arc for arc, _ in ajar]) or leaved or [arc for arc, *_ in judged]
+    candidates = (leaved if hang else ajar) or leaved or [arc for arc, *_ in judged]
     if not candidates:
         return []
     usual = usual_width(candidates)
     drawn = [one for one in judged if is_drawn(one[0], *one[2:], usual, leaved)]
-    if len(drawn) < SIGNS * sum(is_like(arc, usual) for arc, *_ in judged):
+    if len(drawn) < DOORS * sum(is_like(arc, usual) for arc, *_ in judged):
         drawn = []
     sides = [(arc, leaves, walls) for arc, _, leaves, walls in drawn]
     doors = [
         Door(ends[0], ends[1], arc, marks)
         for (arc, marks, *_), ends in zip(drawn, closings(sides, segments), strict=True)
     ]
-    for arc, _ in ajar:
+    for arc in ajar:
         leaf = shapely.LineString([arc.center, arc.ends[0]])
         if is_like(arc, usual) and not any(door.swing.contains(leaf) for door in doors):
             doors.append(Door(arc.center, arc.ends[1], arc, ()))
     return doors
+
+
+def without_odd_walls(arcs: list[Arc]) -> list[Arc]:
+    """Leave out leaves that are the end of a wall's line, if there are few."""
+    return arcs if sum(arc.is_part for arc in arcs) >= FEW else [arc for arc in arcs if not arc.is_part]
 
 
 def is_drawn(arc: Arc, leaves: NDArray[np.bool_], walls: Array, usual: float, leaved: Sequence[Arc]) -> bool:

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.arcs import Arc
@@ -45,13 +44,11 @@ def find_leaves(
     ]
     alone = [line[[0, -1]] for line in drawn if is_straight(line)]
     last = [end for line in drawn if not is_straight(line) for end in (line[[1, 0]], line[[-2, -1]])]
-    whole = between(radii, alone + [line[::-1] for line in alone])
-    parts = between(radii, last)
-    whole, parts = whole[are_free(whole, segments, SHORT)], parts[are_free(parts, segments, 0.0)]
+    both_ways = alone + [line[::-1] for line in alone]
     arcs = [
         swept(hinge, tip, segments, is_part=is_part)
-        for ends, is_part in ((whole, False), (parts, True))
-        for hinge, tip in ends  # from hinge to tip
+        for lines, short, is_part in ((both_ways, SHORT, False), (last, 0.0, True))
+        for hinge, tip in free_lines(lines, segments, radii, short)
         if not is_hatching(hinge, tip, segments)
     ]
     found = [arc for arc in arcs if arc is not None]
@@ -63,23 +60,19 @@ def find_leaves(
     ]
 
 
-def between(radii: tuple[float, float], lines: Sequence[Array]) -> Array:
-    """Choose lines of a length within bounds, (n, 2, 2)."""
+def free_lines(lines: Sequence[Array], segments: Segments, radii: tuple[float, float], short: float) -> Array:
+    """Choose lines (2, 2) from hinge to tip, of a leaf's length, whose outer half nothing comes near to.
+
+    What is shorter than `short`, a share of the line, may. Returns (n, 2, 2).
+    """
     ends = np.array(lines).reshape(-1, 2, 2)
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    return np.asarray(ends[(lengths >= radii[0]) & (lengths <= radii[1])])
-
-
-def are_free(ends: Array, segments: Segments, short: float) -> NDArray[np.bool_]:
-    """Tell which lines (n, 2, 2), from hinge to tip, nothing comes near to in their outer half.
-
-    What is shorter than a share of the line may.
-    """
+    ends = ends[(lengths >= radii[0]) & (lengths <= radii[1])]
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     outer = shapely.linestrings(np.stack([ends.mean(axis=1), ends[:, 1]], axis=1))
     line, near = segments.tree.query(outer, predicate="dwithin", distance=AT / 2.0 * lengths)
     long = segments.lengths[near] >= short * lengths[line]
-    return np.asarray(np.bincount(line[long], minlength=len(ends)) <= 1)
+    return np.asarray(ends[np.bincount(line[long], minlength=len(ends)) <= 1])
 
 
 def is_straight(points: Array) -> bool:

@@ -75,9 +75,9 @@ def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
     height, width = colors.shape[:2]
     if FEW <= height * width <= MOST:
         return 1.0, colors
-    larger = min(2.0, float(np.sqrt(MOST / (height * width))))
-    size = (round(larger * width), round(larger * height))
-    between = Image.Resampling.BICUBIC if larger > 1.0 else Image.Resampling.BOX
+    factor = min(2.0, float(np.sqrt(MOST / (height * width))))
+    size = (round(factor * width), round(factor * height))
+    between = Image.Resampling.BICUBIC if factor > 1.0 else Image.Resampling.BOX
     working = np.empty((size[1], size[0], 3), dtype=np.float32)
     for k in range(3):
         channel = Image.fromarray(colors[..., k]).resize(size, between)

@@ -101,10 +101,11 @@ def lines_of(
     runs, mean_width = trace_runs(thin)
     radii = (DOORS[0] * float(np.hypot(*thin.shape)), DOORS[1] * float(np.hypot(*thin.shape)))
     parts = [part_arcs(run, pen_width, radii) for run in runs]
+    rest = [run for others, _ in parts for run in others]
     arcs = [with_leaf(arc, ink) for _, found in parts for arc in found]
     if sum(arc.has_leaf for arc in arcs) < LEAVES * len(arcs):
-        parts, arcs = [(runs, [])], []
-    others, bars = part_bars([run for rest, _ in parts for run in rest if len(run) > 1], depth, pen_width)
+        rest, arcs = runs, []
+    others, bars = part_bars([run for run in rest if len(run) > 1], depth, pen_width)
     lines = join_straight(straightened(others, mean_width), pen_width)
     lines += [line for arc in arcs for line in arc.lines]
     return lines, straightened(bars, mean_width)
@@ -119,14 +120,14 @@ def line_of(points: Array, flat: NDArray[np.float32], depth: NDArray[np.float32]
 
 def of_one_pen(bars: list[Line]) -> list[Line]:
     """Give bars of one hue one width and one color."""
-    pens: dict[int, list[Line]] = defaultdict(list)
+    by_hue: dict[int, list[Line]] = defaultdict(list)
     for bar in bars:
-        pens[hue_of(bar.color)].append(bar)
-    return [
-        Line(bar.points, median([one.width for one in alike]), color_of(np.array([b.color for b in alike])))
-        for alike in pens.values()
-        for bar in alike
-    ]
+        by_hue[hue_of(bar.color)].append(bar)
+    pens = {
+        hue: (median([bar.width for bar in alike]), color_of(np.array([bar.color for bar in alike])))
+        for hue, alike in by_hue.items()
+    }
+    return [Line(bar.points, *pens[hue]) for hue, alike in by_hue.items() for bar in alike]
 
 
 def pixels_along(points: Array, shape: tuple[int, ...]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
