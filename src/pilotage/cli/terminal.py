@@ -74,7 +74,7 @@ def check_outputs(paths: Iterable[Path | None], *, figure: Path | None = None, f
     figure's name tells no format.
     """
     from pilotage.figures.formats import format_of
-    from pilotage.io.files import check_replaceable
+    from pilotage.io.files import check_folder, check_replaceable
 
     if figure is not None:
         format_of(figure)
@@ -90,12 +90,3 @@ def check_outputs(paths: Iterable[Path | None], *, figure: Path | None = None, f
         if real in seen:
             raise FileError("two outputs must not be the same file", path)
         seen.add(real)
-
-
-def check_folder(path: Path) -> None:
-    """Raise FileError if a file cannot be made in its folder, or its missing folder in the one above."""
-    folder = next(folder for folder in path.absolute().parents if folder.exists())
-    if not folder.is_dir():
-        raise FileError(f"a file cannot be written ({folder.name} is no folder)", path)
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise FileError("a file cannot be written (Permission denied)", path)

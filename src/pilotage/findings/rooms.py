@@ -13,7 +13,7 @@ from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
-from pilotage.maps.routing.places import connected_cells
+from pilotage.maps.routing.places import connected_cells, folded
 
 BUILDING = 0.2
 """A part that cannot be reached is a building of its own from this share of the largest part's area on."""
@@ -188,7 +188,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
     by_name: dict[str, list[Cell]] = {}
     for cell in graph.cells:
         if cell.label:
-            by_name.setdefault(cell.label.casefold(), []).append(cell)
+            by_name.setdefault(folded(cell.label), []).append(cell)
     for cells in by_name.values():
         if len(cells) > 1:
             yield Finding(

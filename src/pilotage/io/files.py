@@ -126,6 +126,15 @@ def check_replaceable(path: Path) -> None:
             raise FileError("only regular files are replaced, not folders, pipes or devices", path)
 
 
+def check_folder(path: Path) -> None:
+    """Raise FileError if a file cannot be made in its folder, or its missing folder in the one above."""
+    folder = next(folder for folder in path.absolute().parents if folder.exists())
+    if not folder.is_dir():
+        raise FileError(f"a file cannot be written ({folder.name} is no folder)", path)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FileError("a file cannot be written (Permission denied)", path)
+
+
 def keep_partial(beside: Path, path: Path, interrupt: KeyboardInterrupt) -> None:
     """Keep what was written before an interruption, under the first name that is free."""
     if beside.exists() and beside.stat().st_size:

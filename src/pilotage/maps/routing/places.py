@@ -29,6 +29,7 @@ def find_labeled(graph: CellGraph, words: str) -> Point:
     wanted = folded(words)
     if not wanted:
         raise RouteError("a place needs a name or two numbers X,Y, got nothing")
+    # a label lists the names of its cell with commas between them, and a name may hold one itself
     found = [cell for cell in graph.cells if f", {wanted}, " in f", {folded(cell.label)}, "]
     found = found or [cell for cell in graph.cells if folded(cell.cell_id) == wanted]
     if len(found) == 1:
