@@ -117,6 +117,21 @@ def test_a_closed_door_is_noticed_and_marked_and_another_way_is_taken():
     assert 1.3 == pytest.approx(math.hypot(*localizer.blocked[0].end), abs=0.3)  # a metre behind the door
 
 
+@pytest.mark.parametrize("length", [0.0, 0.6])
+def test_a_jump_of_odometry_turns_the_robot_no_faster_than_it_may(length):
+    settings = NavigatorSettings(length=length)
+    navigator = Navigator(knowing(), (7.5, 7.5), settings)
+    simulator = Simulator(WORLD, START, np.random.default_rng(0), SEEING)
+    for instant in islice(drive(navigator, simulator), 20):
+        assert instant.step.outcome is None
+    reading = simulator.read()
+    jumped = replace(reading.odometry, odom_from_base=reading.odometry.odom_from_base @ Pose2(0.5, 0.0, 2.0))
+    command = navigator.step(reading.scan, replace(jumped, stamp=jumped.stamp + 0.1)).command
+
+    assert settings.steering.turn_rate >= abs(command.angular)
+    assert settings.steering.speed >= abs(command.linear)
+
+
 def test_a_keep_out_zone_is_no_way_that_the_robot_found_blocked():
     localizer = zoned(keep_out=(square(0.1, 8.0, 1.0, 8.9),))
     driven((8.5, 2.5), DOOR_SHUT, localizer=localizer, patience=2.0, time_limit=20.0)

@@ -49,7 +49,7 @@ def stop(start, moving):
     """Brake until the robot stands."""
     pose, now = start, moving
     while now.linear > 0.0:
-        now = BODY.obeyed(now, turn_on_the_spot(0.0, now), TIME_STEP)
+        now = BODY.obeyed(now, turn_on_the_spot(0.0, SETTINGS, now), TIME_STEP)
         yield pose, now
         pose = pose @ rolled(now, TIME_STEP)
     yield pose, now
@@ -162,11 +162,13 @@ def test_a_robot_that_moves_stops_on_its_arc_before_it_turns_back():
     moving = Twist(0.6, -0.4)
     command = steer(-AHEAD, NOTHING, BODY.radius, SETTINGS, moving)
 
-    assert Twist(0.0, -0.4) == command == turn_on_the_spot(0.0, moving)
+    assert Twist(0.0, -0.4) == command == turn_on_the_spot(0.0, SETTINGS, moving)
 
 
 def test_a_robot_that_stands_is_braked_without_turning():
-    assert Twist(0.0, 0.0) == turn_on_the_spot(0.0, STILL) == turn_on_the_spot(0.0, Twist(0.0, 0.5))
+    turning = Twist(0.0, 0.5)
+
+    assert STILL == turn_on_the_spot(0.0, SETTINGS, STILL) == turn_on_the_spot(0.0, SETTINGS, turning)
 
 
 @pytest.mark.parametrize("away", [0.231, 0.25])

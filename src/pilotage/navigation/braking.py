@@ -29,6 +29,14 @@ class SteeringSettings:
             raise ValueError(f"delay must be >= 0 s, got {self.delay}")
 
 
+def brake(moving: Twist, settings: SteeringSettings) -> Twist:
+    """Command a moving robot to stop on its present arc, which was found free.
+
+    Its turn is what odometry says, which may jump: never faster than the robot may turn.
+    """
+    return Twist(0.0, max(-settings.turn_rate, min(settings.turn_rate, moving.angular)))
+
+
 def braking_path(command: Twist, settings: SteeringSettings) -> Array:
     """List the positions of a robot that obeys for the delay and then brakes, still turning, (k, 2) [m]."""
     speed, braking = command.linear, settings.braking

@@ -202,12 +202,12 @@ class Navigator:
         """Turn the plan into a command to the wheels, and say what the robot does."""
         plan, steering, twist = self.plan, self.settings.steering, self.position.twist
         if is_blind(scan):
-            return turn_on_the_spot(0.0, twist), Behavior.REST if plan.outcome else Behavior.WAIT
+            return turn_on_the_spot(0.0, steering, twist), Behavior.REST if plan.outcome else Behavior.WAIT
         if plan.behavior is Behavior.REST:
-            return turn_on_the_spot(0.0, twist), Behavior.REST
+            return turn_on_the_spot(0.0, steering, twist), Behavior.REST
         rectangle = self.settings.rectangle
         if len(plan.path) == 0 and rectangle is None:
-            return turn_on_the_spot(TURNING * steering.turn_rate, twist), Behavior.LOOK_AROUND
+            return turn_on_the_spot(TURNING * steering.turn_rate, steering, twist), Behavior.LOOK_AROUND
         base_from_odom = self.local_grid.odom_from_base.inverse()
         remembered = base_from_odom @ self.local_grid.obstacles
         obstacles = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < BEHIND]])

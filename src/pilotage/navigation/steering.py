@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from pilotage.geometry import Array, Twist
-from pilotage.navigation.braking import SLOW, SteeringSettings, braking_path
+from pilotage.navigation.braking import SLOW, SteeringSettings, brake, braking_path
 from pilotage.navigation.local_grid import CLEARANCE
 from pilotage.navigation.rectangle import is_free_to_obey, turned_or_backed_out
 
@@ -60,12 +60,12 @@ def steer(
                 return command
     if rectangle is not None:
         return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
-    return turn_on_the_spot(angular, moving)
+    return turn_on_the_spot(angular, settings, moving)
 
 
-def turn_on_the_spot(angular: float, moving: Twist) -> Twist:
-    """Turn [rad/s] once the robot stands; until then brake on its present arc, which was found free."""
-    return Twist(0.0, moving.angular if moving.linear > SLOW else angular)
+def turn_on_the_spot(angular: float, settings: SteeringSettings, moving: Twist) -> Twist:
+    """Turn [rad/s] once the robot stands; until then brake."""
+    return brake(moving, settings) if moving.linear > SLOW else Twist(0.0, angular)
 
 
 def lookahead_point(path: Array, obstacles: Array, room: float, distance: float) -> Array:
