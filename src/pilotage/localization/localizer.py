@@ -35,8 +35,8 @@ BIRTH_COUNT = 2_000
 """Particles that a search gives birth to."""
 SETTLED = 0.8
 """Probability from which on a search of the whole drawing is rare and small."""
-FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_rng", "_model")
-"""Attributes of a localizer that are no state: a resumed one is given them, or makes them."""
+FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_scale", "_rng", "_model")
+"""Attributes that do not change from scan to scan, or have a state of their own."""
 SEARCH_EVERY = 2.0
 """[m] between two searches then."""
 SETTLED_PROPOSALS = 0.25
@@ -91,7 +91,7 @@ class Localizer:
         if start is not None and not (len(start) in {2, 3} and all(map(math.isfinite, start))):
             raise ValueError(f"start must be x, y and a heading, all finite, got {start}")
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
-        self._prior = self.settings.prior
+        self._prior, self._scale = self.settings.prior, scale
         if scale is not None:
             check_scale(scale, self.atlas.sketch.diagonal)
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
@@ -122,11 +122,13 @@ class Localizer:
     ) -> "Localizer":
         """Go on from the `state` of a localizer on the same drawing, as if it had never stopped.
 
-        With `stood` the robot is taken not to have moved since, whatever odometry says. What is resumed is a
-        belief as any other, and is given up if what is seen speaks against it. Raises OtherDrawingError if
-        the state is of another drawing.
+        The settings must be those of before; so is the `scale`, if none is given. With `stood` the robot is
+        taken not to have moved since, whatever odometry says. What is resumed is a belief as any other, and
+        is given up if what is seen speaks against it. Raises OtherDrawingError if the state is of another
+        drawing.
         """
         state.check_drawing(drawing.sketch if isinstance(drawing, Atlas) else drawing)
+        scale = state.scale if scale is None else scale
         localizer = cls(drawing, settings, start=(0.0, 0.0), scale=scale)  # few particles, and replaced
         vars(localizer).update(state.localizer)
         vars(localizer.scan_matcher).update(state.scan_matcher)
@@ -141,7 +143,7 @@ class Localizer:
         matcher = {name: value for name, value in vars(self.scan_matcher).items() if name != "settings"}
         own = {name: value for name, value in vars(self).items() if name not in FIXED}
         generator = self._rng.bit_generator.state
-        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator)
+        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator, self._scale)
 
     @property
     def estimate(self) -> Estimate:
