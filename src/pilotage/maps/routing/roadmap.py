@@ -129,9 +129,9 @@ class Roadmap:
         net.add_edges_from(backwards(self._paths_from(last, ends[1], cell_ids[1], points, beside)))
         found = rustworkx.dijkstra_shortest_paths(net, first, target=last, weight_fn=lambda edge: edge.cost)
         if last not in found:
-            raise RouteError(
-                f"no way leads from cell {cell_ids[0]} to cell {cell_ids[1]}: no gateways join them"
-            )
+            is_barred = closed or self.zones.keep_out or self.zones.one_way
+            why = "blocked gateways or zones are in the way" if is_barred else "no gateways join them"
+            raise RouteError(f"no way leads from cell {cell_ids[0]} to cell {cell_ids[1]}: {why}")
         nodes = list(found[last])
         return self._route(
             cell_ids[0],
