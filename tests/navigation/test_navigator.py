@@ -288,6 +288,11 @@ def test_equal_drives_are_equal():
         assert (one.command, one.behavior, one.target) == (other.command, other.behavior, other.target)
 
 
+def test_a_gateway_that_the_drawing_does_not_have_is_rejected_before_anything_moves():
+    with pytest.raises(ValueError, match="blocked must hold ids of gateways of this drawing, got g99"):
+        Navigator(knowing(), (7.5, 7.5), blocked=("g99",))
+
+
 def test_a_goal_in_a_wall_is_rejected_before_anything_moves():
     block = Polyline.through([(3, 3), (17, 3), (17, 7), (3, 7), (3, 3)])
     outside = Polyline.through([(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)])

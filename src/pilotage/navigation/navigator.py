@@ -53,7 +53,8 @@ class Navigator:
     A goal is the name of a room, reached anywhere in it, or a point in the drawing's own units and axes; a
     `Tour` holds several, and can go round and return. The time limit is that of each goal. `blocked` are ids
     of gateways that were found blocked before. Raises RouteError if a goal cannot be reached on this drawing,
-    NotEnclosedError if the drawing has no cells, ValueError if a point is not finite.
+    NotEnclosedError if the drawing has no cells, ValueError if a point is not finite or an id is none of this
+    drawing.
     """
 
     def __init__(
@@ -67,6 +68,9 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
         self.planner = self._first_planner(localizer)
+        unknown = sorted(set(blocked) - {gateway.gateway_id for gateway in self.planner.graph.gateways})
+        if unknown:
+            raise ValueError(f"blocked must hold ids of gateways of this drawing, got {', '.join(unknown)}")
         self.zones = localizer.atlas.sketch.zones
         self.position = DeadReckoning(localizer)
         self.local_grid = LocalGrid.unknown()
