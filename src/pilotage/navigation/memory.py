@@ -116,4 +116,4 @@ def after_stall(memory: Memory, plan: Plan, stamp: float) -> Memory:
         return replace(restarted, exploration=memory.exploration.given_up())
     if plan.behavior is Behavior.DRIVE_ON:
         return replace(restarted, arrival=memory.arrival.forgotten())
-    return memory
+    return restarted
