@@ -317,6 +317,12 @@ def test_settings_are_positive(name):
         NavigatorSettings(**{name: math.nan})
 
 
+@pytest.mark.parametrize("name", ["radius", "near", "patience"])
+def test_sizes_and_patience_are_finite(name):
+    with pytest.raises(ValueError, match=f"{name} must be > 0 and finite"):
+        NavigatorSettings(**{name: math.inf})
+
+
 @pytest.mark.parametrize("name", ["blocked_for", "mismatch_patience"])
 def test_times_are_not_negative(name):
     with pytest.raises(ValueError, match=f"{name} must be >= 0 s"):

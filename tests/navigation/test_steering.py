@@ -233,11 +233,13 @@ def test_the_robot_can_stop_at_the_end_of_its_way(left):
 
 
 @pytest.mark.parametrize("name", ["speed", "turn_rate", "braking"])
-def test_what_moves_the_robot_is_positive(name):
-    with pytest.raises(ValueError, match=f"{name} must be > 0"):
-        SteeringSettings(**{name: 0.0})
+@pytest.mark.parametrize("value", [0.0, math.inf])
+def test_what_moves_the_robot_is_positive_and_finite(name, value):
+    with pytest.raises(ValueError, match=f"{name} must be > 0 and finite"):
+        SteeringSettings(**{name: value})
 
 
-def test_the_delay_is_not_negative():
+@pytest.mark.parametrize("delay", [-1.0, math.nan, math.inf])
+def test_the_delay_is_not_negative_and_finite(delay):
     with pytest.raises(ValueError, match="delay must be >= 0"):
-        SteeringSettings(delay=math.nan)
+        SteeringSettings(delay=delay)
