@@ -109,7 +109,10 @@ class Fit:
 
 
 def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) -> Fit:
-    """Fit to sightings, of which at least one is as probable as `believed`."""
+    """Fit to sightings, of which at least one is as probable as `believed`.
+
+    Raises CoincidingError if the places that are believed are all the same.
+    """
     path = path_of([one.odom_from_base for one in sightings], np.array([one.travel for one in sightings]))
     surfaces, beliefs = Surfaces.of(sightings), Beliefs.of(sightings, believed)
     rough = robust_similarity(
