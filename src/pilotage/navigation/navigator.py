@@ -20,10 +20,9 @@ from pilotage.navigation.local_grid import LocalGrid
 from pilotage.navigation.memory import PLAN_EVERY, Memory
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.planner import RoutePlanner
-from pilotage.navigation.rectangle import turned_or_backed_out
 from pilotage.navigation.settings import NavigatorSettings
 from pilotage.navigation.situation import Situation
-from pilotage.navigation.steering import steer, turn_on_the_spot
+from pilotage.navigation.steering import steer, turn, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Place, Step
 from pilotage.navigation.tour import HOME, Tour, tour_of
 from pilotage.perception import LaserScan, Odometry
@@ -210,16 +209,12 @@ class Navigator:
         if plan.behavior is Behavior.REST:
             return turn_on_the_spot(0.0, steering, twist), Behavior.REST
         rectangle = self.settings.rectangle
-        if len(plan.path) == 0 and rectangle is None:
-            return turn_on_the_spot(TURNING * steering.turn_rate, steering, twist), Behavior.LOOK_AROUND
         base_from_odom = self.local_grid.odom_from_base.inverse()
         remembered = base_from_odom @ self.local_grid.obstacles
         obstacles = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < BEHIND]])
         if len(plan.path) == 0:
             around = TURNING * steering.turn_rate
-            assert rectangle is not None  # told above
-            turn = turned_or_backed_out(around, obstacles, rectangle, steering, twist)
-            return turn, Behavior.LOOK_AROUND
+            return turn(around, obstacles, steering, twist, rectangle), Behavior.LOOK_AROUND
         path = base_from_odom @ plan.path
         passed = int(np.hypot(path[:, 0], path[:, 1]).argmin())
         if self.zones.is_slow(self.position.estimate.sketch_from_base.translation):

@@ -41,8 +41,8 @@ def steer(
 
     `moving` is how the robot moves now, `sight` how far it sees [m]: farther away may be obstacles.
     With a `rectangle`, length and width [m], the whole of it must have room; `radius` is half its width.
-    Where no forward command is safe, the robot stands or turns on the spot. A robot that moves first brakes
-    on its arc, which was found free.
+    Where no forward command is safe, the robot stands or turns on the spot. One that still moves brakes
+    before it turns, on its arc, which was found free.
     """
     ahead = lookahead_point(path, obstacles, radius + CLEARANCE, LOOK_AHEAD)
     bearing = math.atan2(ahead[1], ahead[0])
@@ -58,9 +58,20 @@ def steer(
                 continue
             if rectangle is None or is_free_to_obey(braking, obstacles, rectangle, settings):
                 return command
-    if rectangle is not None:
-        return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
-    return turn_on_the_spot(angular, settings, moving)
+    return turn(angular, obstacles, settings, moving, rectangle)
+
+
+def turn(
+    angular: float,
+    obstacles: Array,
+    settings: SteeringSettings,
+    moving: Twist,
+    rectangle: tuple[float, float] | None,
+) -> Twist:
+    """Turn [rad/s] on the spot among obstacles (n, 2); a rectangle without the room for it backs out."""
+    if rectangle is None:
+        return turn_on_the_spot(angular, settings, moving)
+    return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
 
 
 def turn_on_the_spot(angular: float, settings: SteeringSettings, moving: Twist) -> Twist:
