@@ -24,7 +24,6 @@ Point = tuple[float, float]
 GRAZE = 2e-3
 """Share of its size by which a cell is widened for visibility tests: paths may touch corners and gateways."""
 
-
 NO_ZONES = Zones()
 
 
