@@ -1,4 +1,4 @@
-"""A grid of what was seen around the robot: free, occupied, or not seen; and the ways over it.
+"""A grid of what was seen around the robot: free, occupied, or not seen; and the paths over it.
 
 Evidence is a whole number for each grid cell (i, j), i along x: 0 not seen, below it free, above it
 occupied; it fades when beams pass, so that what walked away is gone soon.
@@ -93,11 +93,11 @@ def flood(
     easy: float,
     freed: float,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Find the cheapest ways from `start` to all cells that were seen free: costs and what comes before each.
+    """Find the cheapest paths from `start` to all cells that were seen free: costs, and what is before each.
 
     A robot fits where the clearance is `tight` cells, and moves at ease where it is `easy`; in between a step
     costs more. Within `freed` cells of the start it may also move to where the clearance grows, to get away
-    from a wall that it stands too near to. Costs are in STRAIGHT a cell, UNREACHED if there is no way;
+    from a wall that it stands too near to. Costs are in STRAIGHT a cell, UNREACHED if there is no path;
     before (width, height) is i * height + j, -1 at the start. Dijkstra with buckets (Dial 1969).
     """
     width, height = evidence.shape

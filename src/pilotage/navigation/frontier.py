@@ -112,7 +112,7 @@ def frontier_worth(
     hypotheses: tuple[PoseHypothesis, ...],
     atlas: Atlas,
 ) -> Array:
-    """Return what frontiers are worth, but for the goal, (k,) [m].
+    """Return what frontiers are worth apart from the progress towards the goal, (k,) [m].
 
     `frontiers` (k,) are indices of `reachable.points`; `avoided` (n, 2) is where the robot was or could not
     get to, in odom [m].

@@ -50,10 +50,10 @@ class Navigator:
     """Drives to a goal, or to several in order.
 
     A goal is the name of a room, reached anywhere in it, or a point in the drawing's own units and axes; a
-    `Tour` holds several, and can go round and return. The time limit is that of each goal. `blocked` are ids
-    of gateways that were found blocked before. Raises RouteError if a goal cannot be reached on this drawing,
-    NotEnclosedError if the drawing has no cells, ValueError if a point is not finite or an id is none of this
-    drawing.
+    `Tour` holds several, and can go round and return. Each goal has the time limit of the settings. `blocked`
+    are ids of gateways that were found blocked before. Raises RouteError if a goal cannot be reached on this
+    drawing, NotEnclosedError if the drawing has no cells, ValueError if a point is not finite or an id is not
+    of this drawing.
     """
 
     def __init__(
