@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.drives import Drive, navigate
     from pilotage.errors import FileError, PilotageError, SettingsError
-    from pilotage.findings import Finding, check
+    from pilotage.findings import Finding
+    from pilotage.findings.check import check
     from pilotage.geometry import Affine2, Pose2, Similarity2, Twist
     from pilotage.io import open_log, open_map, open_world
     from pilotage.io.state import resume, save_state

@@ -189,3 +189,19 @@ def test_places_that_contradict_each_other_are_not_used():
 
     with pytest.raises(NothingBelievedError, match="must agree"):
         correct_drawing(drawn(draw), mixed)
+
+
+def test_a_fault_of_the_fit_is_not_told_as_a_want_of_belief(monkeypatch):
+    e = np.empty((0, 2))
+    at = Affine2.from_state(1.0, 2.0, 0.0, 0.0, 0.0, 0.0)
+    standing = [Sighting(Pose2.identity(), 0.0, e, e, e, e, (0.0, 0.0), at, 0.9)] * 12
+    atlas = build_atlas(SchematicMap(WALLS), coarse())
+    with pytest.raises(NothingBelievedError, match="must not be one and the same"):
+        correct_drawing(atlas, standing)
+
+    def failing(*_):
+        raise ValueError("the fit is at fault")
+
+    monkeypatch.setattr("pilotage.correction.correct.fit", failing)
+    with pytest.raises(ValueError, match="the fit is at fault"):
+        correct_drawing(atlas, standing)

@@ -1,6 +1,7 @@
 """What an estimate says, and how it is carried along."""
 
 import math
+import tracemalloc
 
 import numpy as np
 from hypothesis import given
@@ -94,3 +95,17 @@ def test_particles_apart_at_a_tiny_scale_still_make_a_hypothesis():
 
     assert all(math.isfinite(one.sketch_from_base.pose.x) for one in estimate.hypotheses)
     assert 0.0 < estimate.probability < 1.0
+
+
+def test_a_drawing_of_kilometres_takes_no_more_memory():
+    states = np.tile(
+        np.array([[9.5], [6.5], [0.0], [math.log(ATLAS.sketch.diagonal / 9e3)], [0.0], [0.0]]), 10
+    )
+    tracks = Tracks((Track(Particles(states, np.full(10, math.log(0.05)))),), math.log(0.5))
+    tracemalloc.start()
+    estimate = summarize(tracks, 0.5, 0.0, 1.0, ATLAS)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert 100e6 > most
+    np.testing.assert_allclose([estimate.x, estimate.y], [9.5, 6.5])

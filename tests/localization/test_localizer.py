@@ -194,6 +194,16 @@ def test_a_scale_is_positive(atlas, scale):
         Localizer(atlas, scale=scale)
 
 
+@pytest.mark.parametrize("scale", [None, 12.0])
+def test_a_resumed_localizer_goes_on_with_the_scale_that_was_given(atlas, scale):
+    readings = readings_of(PATH)
+    unbroken, stopped = (Localizer(atlas, SMALL, scale=scale) for _ in range(2))
+    run(stopped, readings[:10])
+    resumed = Localizer.resumed(atlas, stopped.state, SMALL)
+
+    assert run(unbroken, readings)[10:] == run(resumed, readings[10:])
+
+
 @pytest.mark.parametrize("scale", [1e-3, 1e4])
 def test_a_scale_that_no_building_has_is_refused(atlas, scale):
     with pytest.raises(PilotageError, match=r"units per metre: at .* m across"):

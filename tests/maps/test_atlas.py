@@ -6,7 +6,7 @@ import pytest
 from buildings import flat
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
-from pilotage.maps import AtlasSettings, RangeTableSettings, SchematicMap, build_atlas
+from pilotage.maps import AtlasSettings, NotEnclosedError, RangeTableSettings, SchematicMap, build_atlas
 from pilotage.maps.range_table import build_range_table
 
 
@@ -54,6 +54,11 @@ def test_a_drawing_that_encloses_nothing_has_no_cells():
     assert atlas.cell_graph is None
     assert "" == atlas.cell_at((1.0, 1.0))
     assert [False] == atlas.are_in((), np.ones((1, 2))).tolist()
+
+
+def test_a_drawing_that_is_all_one_point_is_refused():
+    with pytest.raises(NotEnclosedError, match="encloses none"):
+        build_atlas(SchematicMap((Polyline.through([(3, 4), (3, 4)]),)), AtlasSettings())
 
 
 def test_points_are_in_the_cells_that_they_lie_in():

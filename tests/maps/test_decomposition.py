@@ -143,6 +143,18 @@ def test_turning_and_scaling_the_drawing_changes_nothing_but_coordinates(b_from_
         assert len(graph.neighbors(cell.cell_id)) == len(moved.neighbors(twin.cell_id))
 
 
+@pytest.mark.parametrize("corner", [(5e5, 5.4e6), (-3e7, 2e7)])
+def test_a_drawing_in_coordinates_of_a_survey_has_the_same_cells(corner):
+    there = np.array(corner)
+    graph = decomposed(*OFFICE)
+    surveyed = decomposed(*(there + np.array(stroke) for stroke in OFFICE))
+
+    areas, found = ([cell.polygon.area for cell in one.cells] for one in (graph, surveyed))
+    assert areas == pytest.approx(found, rel=1e-3)
+    middles, same = (sorted(gateway.middle.tolist() for gateway in one.gateways) for one in (graph, surveyed))
+    np.testing.assert_allclose(middles + there, same, atol=1e-3, rtol=0.0)
+
+
 def assert_sound(graph: CellGraph) -> None:
     polygons = np.array([cell.polygon for cell in graph.cells])
     tolerance = 1e-5 * graph.diameter

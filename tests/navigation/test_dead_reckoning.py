@@ -87,3 +87,24 @@ def test_the_twist_is_what_odometry_says(twist):
     assert twist.linear == pytest.approx(told.linear, rel=0.01)
     assert twist.angular == pytest.approx(told.angular)
     assert Twist(0.0, 0.0) == twist_between(now, now)
+
+
+@pytest.mark.parametrize("leap", [200.0, 1e9])
+def test_a_leap_that_no_robot_makes_leaves_the_twist_as_it_was(leap):
+    position = begun()
+    position.update(*reading(0.05, 0.1))
+    before = position.twist
+    position.update(scan_at(START, 0.2), Odometry(0.2, Pose2(leap, 0.0, 0.0)))
+
+    assert 0.5 == pytest.approx(before.linear)
+    assert before == position.twist
+
+
+def test_without_odometry_each_scan_goes_to_the_localizer():
+    position = DeadReckoning(KnowingLocalizer(ATLAS, START))
+    nothing = Odometry(0.0, Pose2.identity(), is_known=False)
+    for k in range(3):
+        position.update(scan_at(START, 0.1 * k), replace(nothing, stamp=0.1 * k))
+
+        assert position.is_fresh
+    assert Twist(0.0, 0.0) == position.twist

@@ -243,6 +243,15 @@ def test_a_larger_robot_reaches_less():
     assert large < small
 
 
+@pytest.mark.parametrize("radius", [0.2, 1.0, 1.5])
+def test_a_robot_of_any_size_moves_where_there_is_room(radius):
+    hall = (Polyline.through([(0, 0), (9, 0), (9, 9), (0, 9)], closed=True),)
+    reachable = seen_from(Pose2(4.5, 4.5, 0.0), hall, **ALL_AROUND).reachable_set(radius)
+
+    farthest = np.abs(reachable.points - 4.5).max()
+    assert 4.5 - radius == pytest.approx(farthest, abs=0.15)
+
+
 def test_a_robot_that_stands_at_a_wall_finds_a_way_off_it():
     reach = seen_from(Pose2(1.0 + RADIUS, 2.0, 0.0), divided(0.0), **ALL_AROUND).reachable_set(RADIUS)
     at_wall = seen_from(Pose2(RADIUS + 0.005, 2.0, 0.0), divided(0.0), **ALL_AROUND).reachable_set(RADIUS)

@@ -57,6 +57,16 @@ def test_a_stall_while_exploring_gives_the_frontier_up():
     assert () == memory.blocked.gateway_ids
 
 
+@pytest.mark.parametrize("behavior", [Behavior.BACK_OUT, Behavior.LOOK_AROUND])
+def test_a_frontier_gets_its_time_after_a_stall_in_which_there_was_none(behavior):
+    stalled = lasting(Plan(behavior), 4.5)
+    memory = stalled
+    for k in range(5):
+        memory = memory.updated(Plan(Behavior.EXPLORE, path=PATH), 4.5 + k * PLAN_EVERY, standing(), SETTINGS)
+
+    assert 0 == len(memory.exploration.unreachable)
+
+
 def test_a_stall_while_driving_on_ends_the_doubt():
     plan, memory = Plan(Behavior.DRIVE_ON, path=PATH), Memory(arrival=WHERE)
 

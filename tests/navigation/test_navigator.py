@@ -117,6 +117,21 @@ def test_a_closed_door_is_noticed_and_marked_and_another_way_is_taken():
     assert 1.3 == pytest.approx(math.hypot(*localizer.blocked[0].end), abs=0.3)  # a metre behind the door
 
 
+@pytest.mark.parametrize("length", [0.0, 0.6])
+def test_a_jump_of_odometry_turns_the_robot_no_faster_than_it_may(length):
+    settings = NavigatorSettings(length=length)
+    navigator = Navigator(knowing(), (7.5, 7.5), settings)
+    simulator = Simulator(WORLD, START, np.random.default_rng(0), SEEING)
+    for instant in islice(drive(navigator, simulator), 20):
+        assert instant.step.outcome is None
+    reading = simulator.read()
+    jumped = replace(reading.odometry, odom_from_base=reading.odometry.odom_from_base @ Pose2(0.5, 0.0, 2.0))
+    command = navigator.step(reading.scan, replace(jumped, stamp=jumped.stamp + 0.1)).command
+
+    assert settings.steering.turn_rate >= abs(command.angular)
+    assert settings.steering.speed >= abs(command.linear)
+
+
 def test_a_keep_out_zone_is_no_way_that_the_robot_found_blocked():
     localizer = zoned(keep_out=(square(0.1, 8.0, 1.0, 8.9),))
     driven((8.5, 2.5), DOOR_SHUT, localizer=localizer, patience=2.0, time_limit=20.0)
@@ -273,6 +288,11 @@ def test_equal_drives_are_equal():
         assert (one.command, one.behavior, one.target) == (other.command, other.behavior, other.target)
 
 
+def test_a_gateway_that_the_drawing_does_not_have_is_rejected_before_anything_moves():
+    with pytest.raises(ValueError, match="blocked must hold ids of gateways of this drawing, got g99"):
+        Navigator(knowing(), (7.5, 7.5), blocked=("g99",))
+
+
 def test_a_goal_in_a_wall_is_rejected_before_anything_moves():
     block = Polyline.through([(3, 3), (17, 3), (17, 7), (3, 7), (3, 3)])
     outside = Polyline.through([(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)])
@@ -295,6 +315,12 @@ def test_a_drawing_without_cells_cannot_be_driven_by():
 def test_settings_are_positive(name):
     with pytest.raises(ValueError, match=f"{name} must be > 0"):
         NavigatorSettings(**{name: math.nan})
+
+
+@pytest.mark.parametrize("name", ["radius", "near", "patience"])
+def test_sizes_and_patience_are_finite(name):
+    with pytest.raises(ValueError, match=f"{name} must be > 0 and finite"):
+        NavigatorSettings(**{name: math.inf})
 
 
 @pytest.mark.parametrize("name", ["blocked_for", "mismatch_patience"])

@@ -133,6 +133,19 @@ def test_the_robot_sees_the_same_whatever_the_scale_of_the_drawing(scale):
     assert first.distance == pytest.approx(second.distance, abs=0.02)
 
 
+@pytest.mark.parametrize("corner", [(0.0, 0.0), (5e5, 5.4e6)])
+def test_a_bend_before_a_gateway_is_a_bend_in_coordinates_of_a_survey_too(corner):
+    around_a_corner = [(0, 0), (12, 0), (12, 10), (10, 10), (10, 2), (0, 2), (0, 0)]
+    strokes = (around_a_corner, [(10, 6), (10.5, 6)], [(11.5, 6), (12, 6)])
+    there = np.array(corner)
+    graph = decomposed([there + np.array(stroke) for stroke in strokes])
+    start, goal = there + np.array([(1.0, 1.0), (11.0, 9.0)])
+    leg = led(placed(*start), graph, tuple(goal))
+
+    assert ("", 2) == (leg.gateway_id, len(leg.route.cell_ids))
+    np.testing.assert_allclose([9.0, 1.0], leg.middle, atol=1e-3)
+
+
 @given(angles, scales)
 def test_a_turn_of_the_robot_turns_what_it_heads_for(turn, scale):
     first = led(placed(2.0, 1.0, 0.0, scale=scale), ROOMS, GOAL)

@@ -49,7 +49,7 @@ def stop(start, moving):
     """Brake until the robot stands."""
     pose, now = start, moving
     while now.linear > 0.0:
-        now = BODY.obeyed(now, turn_on_the_spot(0.0, now), TIME_STEP)
+        now = BODY.obeyed(now, turn_on_the_spot(0.0, SETTINGS, now), TIME_STEP)
         yield pose, now
         pose = pose @ rolled(now, TIME_STEP)
     yield pose, now
@@ -162,11 +162,13 @@ def test_a_robot_that_moves_stops_on_its_arc_before_it_turns_back():
     moving = Twist(0.6, -0.4)
     command = steer(-AHEAD, NOTHING, BODY.radius, SETTINGS, moving)
 
-    assert Twist(0.0, -0.4) == command == turn_on_the_spot(0.0, moving)
+    assert Twist(0.0, -0.4) == command == turn_on_the_spot(0.0, SETTINGS, moving)
 
 
 def test_a_robot_that_stands_is_braked_without_turning():
-    assert Twist(0.0, 0.0) == turn_on_the_spot(0.0, STILL) == turn_on_the_spot(0.0, Twist(0.0, 0.5))
+    turning = Twist(0.0, 0.5)
+
+    assert STILL == turn_on_the_spot(0.0, SETTINGS, STILL) == turn_on_the_spot(0.0, SETTINGS, turning)
 
 
 @pytest.mark.parametrize("away", [0.231, 0.25])
@@ -231,11 +233,13 @@ def test_the_robot_can_stop_at_the_end_of_its_way(left):
 
 
 @pytest.mark.parametrize("name", ["speed", "turn_rate", "braking"])
-def test_what_moves_the_robot_is_positive(name):
-    with pytest.raises(ValueError, match=f"{name} must be > 0"):
-        SteeringSettings(**{name: 0.0})
+@pytest.mark.parametrize("value", [0.0, math.inf])
+def test_what_moves_the_robot_is_positive_and_finite(name, value):
+    with pytest.raises(ValueError, match=f"{name} must be > 0 and finite"):
+        SteeringSettings(**{name: value})
 
 
-def test_the_delay_is_not_negative():
+@pytest.mark.parametrize("delay", [-1.0, math.nan, math.inf])
+def test_the_delay_is_not_negative_and_finite(delay):
     with pytest.raises(ValueError, match="delay must be >= 0"):
-        SteeringSettings(delay=math.nan)
+        SteeringSettings(delay=delay)

@@ -1,5 +1,6 @@
 """Several goals in order."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -32,6 +33,14 @@ def test_a_patrol_never_ends_unless_the_drawing_does_not_fit():
 
     assert "b" == tour.goal
     assert tour.after(Outcome.MISMATCH, 0.0, "").is_over
+
+
+@pytest.mark.parametrize("number", [int, float, np.float32, np.int64])
+def test_a_point_is_two_numbers_of_any_type(number):
+    point = number(3), number(4)
+
+    assert ((3.0, 4.0),) == tour_of(point).goals == tour_of(np.array(point)).goals
+    assert ((3.0, 4.0), (3.0, 4.0)) == tour_of([np.array(point), point]).goals
 
 
 @pytest.mark.parametrize("goal", [[(1.0, 2.0, 3.0)], [3.0], [None, None], [("a", "b")]])

@@ -1,5 +1,7 @@
 """A session that is stopped and started again still knows its place and what was blocked."""
 
+from dataclasses import replace
+
 import pytest
 
 from buildings import coarse, flat, readings_of, walk
@@ -47,6 +49,17 @@ def test_the_gateways_that_were_blocked_are_blocked_again(tmp_path):
     assert (gateway.gateway_id,) == resumed.blocked
     resumed.set_goal(None)
     assert (gateway.gateway_id,) == resumed.blocked
+
+
+def test_gateways_that_the_drawing_has_no_more_are_forgotten(tmp_path):
+    path = tmp_path / "flat.state"
+    session = Session(ATLAS, SETTINGS, start=(10.0, 60.0, -1.57))
+    session.update(READINGS[0])
+    session.save(path)
+    resumed = Session(ATLAS, SETTINGS, resumed=replace(read_state(path), blocked=("g99",)))
+
+    assert not resumed.set_goal((85.0, 50.0))
+    assert () == resumed.blocked
 
 
 def test_a_session_of_another_drawing_is_refused(tmp_path):

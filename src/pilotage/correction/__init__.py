@@ -1,14 +1,14 @@
 """The elastic drawing: a drawing is bent to where the robot saw its walls, in metres."""
 
-from pilotage.correction.beside import Fit, fit_drawing, give_way
+from pilotage.correction.background import BackgroundCorrection, fit_drawing, give_way
 from pilotage.correction.correct import BELIEVED, NothingBelievedError, correct_drawing
 from pilotage.correction.corrected import CorrectedDrawing, Passage, PassageState
 from pilotage.correction.sighting import Sighting, append_sighting
 
 __all__ = [
     "BELIEVED",
+    "BackgroundCorrection",
     "CorrectedDrawing",
-    "Fit",
     "NothingBelievedError",
     "Passage",
     "PassageState",

@@ -16,6 +16,7 @@ from pilotage.correction.corrected import (
 from pilotage.correction.fit import Fit, Surfaces, fit
 from pilotage.correction.passages import find_passages
 from pilotage.correction.sighting import Sighting
+from pilotage.correction.similarity import CoincidingError
 from pilotage.correction.walls import Carried, Pieces, associate
 from pilotage.geometry import Polyline, Pose2
 from pilotage.maps import Atlas, SchematicMap
@@ -49,7 +50,7 @@ def correct_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> CorrectedDra
         )
     try:
         fitted = fit(atlas.sketch, sightings, BELIEVED)
-    except ValueError as error:
+    except CoincidingError as error:
         raise NothingBelievedError("the places that were believed must not be one and the same") from error
     found = laid_as_drawn(fitted, atlas.sketch)
     check_agreement(found, sightings)

@@ -45,7 +45,7 @@ class CorrectedDrawing:
     seen: tuple[Polyline, ...]  # stretches of strokes that the robot saw [m]
     unseen: tuple[Polyline, ...]  # the other stretches: they follow their neighbors
     passages: tuple[Passage, ...]  # the gateways of the drawing
-    floor: tuple[shapely.Polygon, ...]  # its cells [m]
+    floor: tuple[shapely.Geometry, ...]  # its cells [m]; one that was bent through itself has several parts
     path: Array  # (n, 3) poses of the robot [m, m, rad]
     metres_from_sketch: ElasticMap
     wall_thickness: float  # [m] found for walls drawn as one stroke
@@ -95,7 +95,7 @@ def carried_lines(lines: tuple[Polyline, ...], elastic: ElasticMap) -> tuple[Pol
     return tuple(carried_line(line, elastic) for line in lines)
 
 
-def carried_polygon(polygon: shapely.Polygon, elastic: ElasticMap) -> shapely.Polygon:
+def carried_polygon(polygon: shapely.Polygon, elastic: ElasticMap) -> shapely.Geometry:
     """Carry a polygon with its holes."""
     shell, *holes = (
         carried_line(Polyline(shapely.get_coordinates(ring)[:-1], closed=True), elastic).ring

@@ -43,9 +43,15 @@ PLACE_STD, PLACE_STD_SHARE = 0.7, 0.15
 LATER = 0.05
 """Weight of the estimates once walls are associated."""
 NEAR, EVERY = 6.0, 6
-"""[m] Of the surface points within this distance every sixth goes with the estimate."""
-MIN_GATE = 2.0
-"""[m] of the robust kernel for estimates afterwards, at least."""
+"""Of the surface points within this distance [m] every sixth goes with the estimate."""
+ESTIMATE_GATE, MIN_ESTIMATE_GATE = 4.0, 2.0
+"""Gate for estimates, as a multiple of that for walls, and at least [m]: places are known less exactly."""
+POST_GATE, POST_REACH = 0.5, 1.5
+"""Gate for posts, and distance up to which an edge may show one, as multiples of the gate for walls."""
+HELD = 1e6
+"""Information that holds the first pose where it began [1/m^2, 1/rad^2]."""
+LOOSE_KNOT, LOOSE_NODE = 1e-3, 1e-6
+"""Information on all other knots and on nodes: next to none, but the equations always have a solution."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +115,10 @@ class Fit:
 
 
 def fit(sketch: SchematicMap, sightings: Sequence[Sighting], believed: float) -> Fit:
-    """Fit to sightings, of which at least one is as probable as `believed`."""
+    """Fit to sightings, of which at least one is as probable as `believed`.
+
+    Raises CoincidingError if the places that are believed are all the same.
+    """
     path = path_of([one.odom_from_base for one in sightings], np.array([one.travel for one in sightings]))
     surfaces, beliefs = Surfaces.of(sightings), Beliefs.of(sightings, believed)
     rough = robust_similarity(
@@ -156,10 +165,10 @@ class Problem:
         matrix, right = vstack(rows).tocsr(), np.concatenate(wanted)
         nodes, knots = len(self.grid.nodes), len(last.path.knots)
         smooth = stiffness * self._bending + self._rigid
-        path_prior = np.full(3 * knots + 1, 1e-3)
-        path_prior[:3] = 1e6  # the path begins where it began
+        path_prior = np.full(3 * knots + 1, LOOSE_KNOT)
+        path_prior[:3] = HELD
         path_prior[-1] = 1.0 / THICKNESS_STD**2
-        prior = block_diag([smooth + 1e-6 * diags(np.ones(nodes))] * 2 + [diags(path_prior)])
+        prior = block_diag([smooth + LOOSE_NODE * diags(np.ones(nodes))] * 2 + [diags(path_prior)])
         sums = matrix.T @ right
         sums[:nodes] += self._rigid_sums[:, 0]
         sums[nodes : 2 * nodes] += self._rigid_sums[:, 1]
@@ -176,7 +185,9 @@ class Problem:
         motions, wanted = last.path.motion_rows()
         front, back = csr_matrix((len(wanted), 2 * nodes)), csr_matrix((len(wanted), 1))
         equations = [(hstack([front, motions, back]), wanted)]
-        equations += self._belief_rows(last, max(4.0 * gate, MIN_GATE), 1.0 if by_estimates else LATER)
+        equations += self._belief_rows(
+            last, max(ESTIMATE_GATE * gate, MIN_ESTIMATE_GATE), 1.0 if by_estimates else LATER
+        )
         if not by_estimates and len(self.surfaces.points):
             equations.append(self._wall_rows(last, gate))
         if not by_estimates and len(self.posts) and len(self.edges.points):
@@ -225,9 +236,9 @@ class Problem:
         basis = self.grid.basis(self.posts)
         points = path.from_base(edges.points, edges.owners)
         off, nearest = cKDTree(basis @ last.elastic.coefficients).query(points)
-        chosen = np.flatnonzero(off < 1.5 * gate)
+        chosen = np.flatnonzero(off < POST_REACH * gate)
         owners, points = edges.owners[chosen], points[chosen]
-        weights = np.sqrt(robust(off[chosen], 0.5 * gate)) / POST_STD
+        weights = np.sqrt(robust(off[chosen], POST_GATE * gate)) / POST_STD
         weighted = basis[nearest[chosen]].multiply(weights[:, np.newaxis])
         return self._point_rows(path, owners, points, weighted, weights)
 

@@ -23,10 +23,14 @@ JUMP, JUMP_SHARE = 0.4, 0.1
 """[m, share of the range] by which the next return is farther off where a surface ends."""
 FARTHEST_EDGE = 8.0
 """[m] Farther off, beams are too far apart to tell where a surface ends."""
+RETURNS = 5
+"""Neighboring returns that show a straight surface: two to either side of the one whose normal is sought."""
 ROUGH, ROUGH_SHARE = 0.05, 0.02
-"""[m, share of its length] by which five neighboring returns may lie off a straight surface."""
+"""[m, share of their length] by which these may lie off a straight line; they are longer than the former."""
 GAP, GAP_SHARE = 0.3, 0.12
 """[m, share of the range] Neighboring returns farther apart lie on different surfaces."""
+LONGEST_GAP = 0.7
+"""Largest share of their length between two of these: most of it must not be one gap."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,28 +100,29 @@ def append_sighting(sightings: list[Sighting], localizer: Localizer, scan: Laser
 
 
 def surface_normals(returns: Array, laser: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Find the normal at each return (n, 2) in order of beams, to the laser, and whether it counts, (n,).
+    """Find the unit normal towards the laser at each return (n, 2) in order of beams, and where it counts.
 
-    It counts where five neighboring returns lie on one straight surface.
+    It counts, (n,), where the returns around lie on one straight surface; elsewhere it means nothing, (n, 2).
     """
     count = len(returns)
     normals, straight = np.zeros((count, 2)), np.zeros(count, dtype=bool)
-    if count < 5:
+    if count < RETURNS:
         return normals, straight
-    windows = np.stack([returns[k : count - 4 + k] for k in range(5)])  # (5, n - 4, 2)
-    along = windows[4] - windows[0]
+    around = RETURNS // 2
+    windows = np.stack([returns[k : count - 2 * around + k] for k in range(RETURNS)])  # (5, n - 4, 2)
+    along = windows[-1] - windows[0]
     length = np.hypot(*along.T)
     across = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(length, 1e-9)[:, np.newaxis]
-    off = np.abs(((windows[1:4] - windows[0]) * across).sum(axis=-1)).max(axis=0)
+    off = np.abs(((windows[1:-1] - windows[0]) * across).sum(axis=-1)).max(axis=0)
     gaps = np.hypot(*np.moveaxis(np.diff(windows, axis=0), -1, 0)).max(axis=0)
-    middle = windows[2] - laser
+    middle = windows[around] - laser
     ranges = np.hypot(*middle.T)
     facing = np.where((across * middle).sum(axis=1) > 0.0, -1.0, 1.0)
-    normals[2:-2] = across * facing[:, np.newaxis]
-    straight[2:-2] = (
+    normals[around:-around] = across * facing[:, np.newaxis]
+    straight[around:-around] = (
         (length > ROUGH)
         & (off < ROUGH + ROUGH_SHARE * length)
-        & (gaps < 0.7 * length)
+        & (gaps < LONGEST_GAP * length)
         & (gaps < np.maximum(GAP, GAP_SHARE * ranges))
     )
     return normals, straight
@@ -129,8 +134,9 @@ def find_edges(returns: Array, straight: NDArray[np.bool_], laser: Array) -> NDA
     jump = np.diff(ranges)
     step = np.maximum(JUMP, JUMP_SHARE * np.minimum(ranges[:-1], ranges[1:]))
     first, last = np.flatnonzero(jump > step), np.flatnonzero(jump < -step) + 1
-    first, last = first[first >= 2], last[last < len(returns) - 2]
-    found = np.concatenate([first[straight[first - 2]], last[straight[last + 2]]])
+    around = RETURNS // 2
+    first, last = first[first >= around], last[last < len(returns) - around]
+    found = np.concatenate([first[straight[first - around]], last[straight[last + around]]])
     return np.asarray(found[ranges[found] < FARTHEST_EDGE])
 
 

@@ -13,6 +13,10 @@ GATES = (10.0, 10.0, 6.0, 4.0, 4.0, 4.0)
 """[m] of the robust kernel while the similarity is found."""
 
 
+class CoincidingError(ValueError):
+    """All points or all images of a similarity that is sought are one and the same."""
+
+
 def robust(off: Array, gate: float) -> Array:
     """Weigh residuals (n,) as the kernel of Geman and McClure does: those beyond the gate hardly count."""
     return np.asarray((gate**2 / (gate**2 + off**2)) ** 2)
@@ -22,7 +26,7 @@ def robust_similarity(points: Array, images: Array, weights: Array) -> Similarit
     """Fit a similarity to pairs (n, 2), most of which agree; `weights` (n,) are reciprocal deviations.
 
     It begins with the best of those through two of the pairs, evenly spaced: a localizer that was wrong for a
-    while is outvoted. Raises ValueError if no two pairs differ.
+    while is outvoted. Raises CoincidingError if no two pairs differ.
     """
     tried = np.unique(np.linspace(0, len(points) - 1, TRIED).astype(np.intp))
     best, most = None, -1.0
@@ -33,7 +37,7 @@ def robust_similarity(points: Array, images: Array, weights: Array) -> Similarit
             if agreeing > most:
                 best, most = guess, agreeing
     if best is None:
-        raise ValueError("a similarity needs two pairs of points that differ")
+        raise CoincidingError("a similarity needs two pairs of points that differ")
     for gate in GATES:
         best = fit_similarity(points, images, agreement(best, points, images, gate) * weights**2)
     return best

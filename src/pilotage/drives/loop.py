@@ -35,7 +35,7 @@ class Instant:
 
 
 def drive(pilot: Pilot, simulator: Simulator) -> Iterator[Instant]:
-    """Read, step, move, ten times a second, until the pilot says that the drive is over."""
+    """Read, step, move, once a time step of the simulator, until the pilot says that the drive is over."""
     while True:
         reading = simulator.read()
         began = time.process_time()
@@ -61,11 +61,11 @@ def set_out(
     """Put a robot into a world and give it a drawing with a goal; `drive` then runs the loop.
 
     `goal` is a name, reached anywhere in the one cell that bears it, or a point, or several of these in
-    order, or a `Tour`. `start`, if the robot may
-    know it, is x, y and, if it may know that too, its heading [rad]. Points are in the drawing's own units
-    and axes, headings counter-clockwise on the page; `scale` is drawing units per metre. The robot truly
-    begins at `world_start`, or where the world says, or anywhere free, depending on the seed. Raises
-    PilotageError if the goal cannot be reached from there.
+    order, or a `Tour`. `start`, if the robot may know it, is x, y and, if it may know that too, its heading
+    [rad]. Points are in the drawing's own units and axes, headings counter-clockwise on the page; `scale` is
+    drawing units per metre. The robot truly begins at `world_start`, or where the world says, or anywhere
+    free, depending on the seed. Raises PilotageError if a goal cannot be reached on the drawing, from `start`
+    if that is given, and ValueError if an argument is invalid.
     """
     settings = settings if settings is not None else Settings()
     localizer = Localizer(drawing, settings.localizer, seed=seed, start=start, scale=scale)

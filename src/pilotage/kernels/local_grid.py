@@ -1,4 +1,4 @@
-"""A grid of what was seen around the robot: free, occupied, or not seen; and the ways over it.
+"""A grid of what was seen around the robot: free, occupied, or not seen; and the paths over it.
 
 Evidence is a whole number for each grid cell (i, j), i along x: 0 not seen, below it free, above it
 occupied; it fades when beams pass, so that what walked away is gone soon.
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from pilotage.kernels.compiling import njit
 
+STEP = 0.5  # [cells] between the points of a beam that are entered: none of its cells is jumped over for long
+SHORT = 0.7  # [cells] by which a beam ends before its return: half the diagonal of the cell of that
 HIT = 3  # evidence that one return adds
 MOST = 4  # evidence of a wall that was seen often: as many scans must pass through to clear it
 STRAIGHT, DIAGONAL = 10, 14  # costs of a step at full clearance
@@ -34,10 +36,10 @@ def mark(
     passed = np.zeros((width, height), np.bool_)
     for k in range(len(ranges)):
         cosine, sine = math.cos(directions[k]), math.sin(directions[k])
-        steps = int((ranges[k] - 0.7) * 2.0)
+        steps = int((ranges[k] - SHORT) / STEP)
         for step in range(max(steps, 0)):
-            i = math.floor(origin[0] + 0.5 * step * cosine)
-            j = math.floor(origin[1] + 0.5 * step * sine)
+            i = math.floor(origin[0] + STEP * step * cosine)
+            j = math.floor(origin[1] + STEP * step * sine)
             if not (0 <= i < width and 0 <= j < height):
                 break
             if passed[i, j]:
@@ -91,11 +93,11 @@ def flood(
     easy: float,
     freed: float,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Find the cheapest ways from `start` to all cells that were seen free: costs and what comes before each.
+    """Find the cheapest paths from `start` to all cells that were seen free: costs, and what is before each.
 
     A robot fits where the clearance is `tight` cells, and moves at ease where it is `easy`; in between a step
     costs more. Within `freed` cells of the start it may also move to where the clearance grows, to get away
-    from a wall that it stands too near to. Costs are in STRAIGHT a cell, UNREACHED if there is no way;
+    from a wall that it stands too near to. Costs are in STRAIGHT a cell, UNREACHED if there is no path;
     before (width, height) is i * height + j, -1 at the start. Dijkstra with buckets (Dial 1969).
     """
     width, height = evidence.shape

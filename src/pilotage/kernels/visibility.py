@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pilotage.kernels.compiling import njit
 
 LOG_STEP = 0.03  # 3 % of a range, a fifth of the deviation that a careful drawing has
-LOG_ZERO = 80  # level of a range of one grid cell; level 0 is a hundredth of that, 255 almost 200 cells
+LOG_ZERO = 80  # level of a range of one grid cell; level 0 is an eleventh of that, 255 almost 200 cells
 NO_RETURN = 32767  # level of a beam that did not come back
 HEADINGS = 240  # directions before stretching: steps of 1.5 degrees
 STRETCHES = 9  # levels of p and of q

@@ -16,6 +16,8 @@ RADIUS = 2.0
 """[m] Particles within this distance of the densest point are one hypothesis."""
 DENSITY_BLOCK = 1.0
 """[m] The densest point is sought over three by three blocks of this size."""
+MAX_BLOCKS = 1_000
+"""Blocks along a side of the drawing, at most: on one that is longer than a kilometre they are larger."""
 MAX_HYPOTHESES = 5
 """Number of hypotheses that are told, at most."""
 MIN_PROBABILITY = 0.02
@@ -49,10 +51,7 @@ class PoseHypothesis:
     sketch_from_base: Affine2  # robot frame [m] to sketch (y up) [drawing units]; holds near the robot only
     probability: float  # [0..1]
     position_std: float = 0.0  # [m] root mean square distance of the particles from their mean
-    position_axis: tuple[float, float] = (
-        0.0,
-        0.0,
-    )  # of the largest spread, as long as it [drawing units]
+    position_axis: tuple[float, float] = (0.0, 0.0)  # its largest spread, [drawing units]
 
     def moved(self, motion: Pose2, atlas: Atlas | None = None) -> "PoseHypothesis":
         """Carry the hypothesis along by a motion in the robot's frame."""
@@ -202,9 +201,9 @@ def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array,
     """Find the middle of the three by three blocks with the largest weight, and the scale there."""
     scale = math.exp(float(weighted_sum(particles.states[LOG_SCALE], weights)) / float(weights.sum()))
     table = atlas.range_table
-    size = DENSITY_BLOCK * scale
-    low = np.array(table.corner) - size
-    high = np.array([table.columns, table.rows]) * table.cell_size + 2.0 * size
+    extent = np.array([table.columns, table.rows]) * table.cell_size
+    size = max(DENSITY_BLOCK * scale, float(extent.max()) / MAX_BLOCKS)
+    low, high = np.array(table.corner) - size, extent + 2.0 * size
     cells = np.floor(np.clip((particles.states[:2].T - low), 0.0, high) / size).astype(np.int64) + 1
     shape = cells.max(axis=0) + 2
     flat = cells[:, 0] * shape[1] + cells[:, 1]

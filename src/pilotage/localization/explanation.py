@@ -1,8 +1,8 @@
 """Which drawn walls speak for a place and which against, as the sensor model weighs them.
 
 Each reading of the last metres is set against the drawn wall that it faces from the place. The sensor model
-tells how probably it shows that wall, and what it adds to the evidence of the place: all readings together
-say what the filter computes.
+tells how probably it shows that wall, and what it adds to the evidence of the place. The filter sums up the
+same log-ratios, but gives all readings of a scan together the weight of a few (`effective_beams`).
 """
 
 import math
@@ -31,7 +31,7 @@ class Verdict(Enum):
 
 @dataclass(frozen=True, eq=False)
 class WallEvidence:
-    """What the readings of the last metres say about one drawn wall."""
+    """What the readings of the last metres say about one drawn wall, a segment of the simplified drawing."""
 
     ends: Array  # (2, 2) in the sketch frame, y up [drawing units]
     readings: int

@@ -20,7 +20,7 @@ from pilotage.localization.sensor_model import SensorModel
 SCANS = 8
 """Scans of the window that are compared."""
 KEPT = (6, 30)
-"""One in 6 proposals is kept after the newest scan, and one in 30 after half of the scans."""
+"""Of the proposals one in 6 is kept after the newest scan, and one in 30 after half of the scans."""
 ROUNDS = 4
 """Rounds of refinement."""
 MOVES = np.array([0.3, 0.3, math.radians(4.0), 0.08, 0.08, 0.08])

@@ -59,7 +59,10 @@ def novelty_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...])
 
 
 def choose_keyframes(window: tuple[Keyframe, ...], count: int) -> tuple[Keyframe, ...]:
-    """Take keyframes that stand for equal shares of the novelty of all; the newest is always the first."""
+    """Choose at most `count` keyframes, the newest first, at even steps of the summed novelty.
+
+    Keyframes that show the same things again are so passed over.
+    """
     novelty = np.cumsum([one.novelty for one in window])
     picked = np.searchsorted(novelty, np.linspace(novelty[0], novelty[-1], min(count, len(window))) - 0.5)
     picked = np.unique([*picked[:-1], len(window) - 1])

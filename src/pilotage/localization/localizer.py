@@ -23,7 +23,7 @@ from pilotage.localization.particles import Particles, join
 from pilotage.localization.prior import Prior, check_scale, draw_anywhere, draw_near
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
 from pilotage.localization.state import LocalizerState, fingerprint
-from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized
+from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized, rare
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
@@ -34,13 +34,15 @@ FIT_MEMORY = 10
 BIRTH_COUNT = 2_000
 """Particles that a search gives birth to."""
 SETTLED = 0.8
-"""Probability from which on a search of the whole drawing is rare and small."""
-FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_rng", "_model")
-"""Attributes of a localizer that are no state: a resumed one is given them, or makes them."""
-SEARCH_EVERY = 2.0
-"""[m] between two searches then."""
+"""Probability from which on the place is settled: then a search of the whole drawing is rare and small."""
+SETTLED_EVERY = 2.0
+"""[m] of travel between two searches while the place is settled."""
 SETTLED_PROPOSALS = 0.25
-"""Share of the proposals that such a search tries."""
+"""Share of the proposals that a search tries while the place is settled."""
+MIN_CARRIED = 0.05
+"""[m] of travel since a search that counts at least: a robot that only turns may have been carried, too."""
+FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_scale", "_rng", "_model")
+"""Attributes that do not change from scan to scan, or have a state of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +93,7 @@ class Localizer:
         if start is not None and not (len(start) in {2, 3} and all(map(math.isfinite, start))):
             raise ValueError(f"start must be x, y and a heading, all finite, got {start}")
         self.atlas = drawing if isinstance(drawing, Atlas) else build_atlas(drawing, self.settings.atlas)
-        self._prior = self.settings.prior
+        self._prior, self._scale = self.settings.prior, scale
         if scale is not None:
             check_scale(scale, self.atlas.sketch.diagonal)
             self.atlas = replace(self.atlas, log_scale=math.log(scale))
@@ -122,11 +124,13 @@ class Localizer:
     ) -> "Localizer":
         """Go on from the `state` of a localizer on the same drawing, as if it had never stopped.
 
-        With `stood` the robot is taken not to have moved since, whatever odometry says. What is resumed is a
-        belief as any other, and is given up if what is seen speaks against it. Raises OtherDrawingError if
-        the state is of another drawing.
+        The settings must be those of before; so is the `scale`, if none is given. With `stood` the robot is
+        taken not to have moved since, whatever odometry says. What is resumed is a belief as any other, and
+        is given up if what is seen speaks against it. Raises OtherDrawingError if the state is of another
+        drawing.
         """
         state.check_drawing(drawing.sketch if isinstance(drawing, Atlas) else drawing)
+        scale = state.scale if scale is None else scale
         localizer = cls(drawing, settings, start=(0.0, 0.0), scale=scale)  # few particles, and replaced
         vars(localizer).update(state.localizer)
         vars(localizer.scan_matcher).update(state.scan_matcher)
@@ -141,7 +145,7 @@ class Localizer:
         matcher = {name: value for name, value in vars(self.scan_matcher).items() if name != "settings"}
         own = {name: value for name, value in vars(self).items() if name not in FIXED}
         generator = self._rng.bit_generator.state
-        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator)
+        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator, self._scale)
 
     @property
     def estimate(self) -> Estimate:
@@ -228,7 +232,7 @@ class Localizer:
         self._estimate = replace(now, stamp=self.estimate.stamp)
 
     def _weighed(self, particles: Particles, log_null: float, log_ratio: Array) -> tuple[Particles, float]:
-        """Multiply all masses by likelihood ratios to the null model, and keep the evidence of it."""
+        """Multiply weights by likelihood ratios (n,) to the null model, normalize, and note the evidence."""
         weighed = Particles(particles.states, particles.log_weights + log_ratio)
         weighed, log_null, log_total = normalized(weighed, log_null)
         self.log_evidence += log_total
@@ -241,14 +245,14 @@ class Localizer:
         return summarize(self.tracks, fit, stamp, self._window[-1].travel, self.atlas)
 
     def _search_effort(self) -> float:
-        """Search at every keyframe while the place is not settled, and rarely once it is; return the share.
+        """Return the share of the proposals that a search tries at this keyframe; 0 for no search.
 
-        It is the share of the proposals that are tried.
+        All are tried at every keyframe until the place is settled.
         """
         assert self._keyframe_estimate is not None
         if self._keyframe_estimate.probability < SETTLED:
             return 1.0
-        is_due = self._window[-1].travel - self._searched >= SEARCH_EVERY
+        is_due = self._window[-1].travel - self._searched >= SETTLED_EVERY
         return SETTLED_PROPOSALS if is_due else 0.0
 
     def _births(self, share: float) -> Particles:
@@ -258,12 +262,12 @@ class Localizer:
         mass is the evidence of the window there, over the evidence that all tracks together had since.
         """
         settings, travel = self.settings, self._window[-1].travel
-        distance = max(travel - self._searched, 0.05)
+        distance = max(travel - self._searched, MIN_CARRIED)
         self._searched = travel
         count = round(share * settings.proposals)
         found = global_search(self._window, self._model, self._prior, count, self._rng)
         since = sum(log_total for _, log_total in self._log_totals[1:])
-        log_prior = math.log(min(settings.tracks.moving * distance, 0.5)) + self._log_told
+        log_prior = math.log(rare(settings.tracks.moving * distance)) + self._log_told
         return found.resampled(BIRTH_COUNT, self._rng).plus(log_prior - since)
 
     def _fit(self, scan: SparseScan) -> float:

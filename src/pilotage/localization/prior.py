@@ -14,8 +14,8 @@ from pilotage.shape.corners import Corners
 MAX_TURN_DIFFERENCE = math.radians(30.0)
 """A seen and a drawn corner may be the same if their turns differ by less: angles are drawn a little off."""
 
-SIZES = (1.0, 10_000.0)
-"""Diagonals of a drawing [m]: a scale that says less or more was meant the other way round, or is a slip."""
+MIN_DIAGONAL, MAX_DIAGONAL = 1.0, 10_000.0
+"""[m] of a drawing: a scale by which it is smaller or larger is a slip, or metres per unit were given."""
 
 
 class ScaleError(PilotageError, ValueError):
@@ -46,7 +46,7 @@ def check_scale(scale: float, diagonal: float) -> None:
     """
     if not (scale > 0.0 and math.isfinite(scale)):
         raise ValueError(f"scale must be positive and finite, got {scale}")
-    if not SIZES[0] <= diagonal / scale <= SIZES[1]:
+    if not MIN_DIAGONAL <= diagonal / scale <= MAX_DIAGONAL:
         raise ScaleError(
             f"a scale is drawing units per metre: at {scale:g} the drawing would be"
             f" {diagonal / scale:.3g} m across"
@@ -104,7 +104,7 @@ def draw_at_corners(seen: Corners, atlas: Atlas, prior: Prior, count: int, rng: 
 
 
 def _draw_scales(atlas: Atlas, prior: Prior, count: int, rng: np.random.Generator) -> Array:
-    """Draw log scales and stretches, (3, count)."""
+    """Draw log scale, p and q from the prior, (3, count)."""
     std = np.array([[prior.log_scale], [prior.stretch], [prior.stretch]])
     mean = np.array([[atlas.log_scale], [0.0], [0.0]])
     return np.asarray(mean + std * rng.standard_normal((3, count)))

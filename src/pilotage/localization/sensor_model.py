@@ -37,7 +37,7 @@ NULL_EXTENT = 8.0
 WIDEST = 12.0
 """Largest |log(predicted / measured)| that is told apart: more than from a millimetre to 100 metres."""
 CLASS_WIDTH, CLASSES, FIRST_CLASS = 0.2, 40, -16
-"""Ranges are grouped by their logarithm for the table of ratios."""
+"""Measured ranges are grouped by their logarithm for the table of ratios: from 4 cm to 120 m."""
 
 BEAMS = 45
 """Beams of a scan that are compared, evenly spaced: more of them err together."""

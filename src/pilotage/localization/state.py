@@ -22,6 +22,7 @@ class LocalizerState:
     localizer: Mapping[str, object]
     scan_matcher: Mapping[str, object]
     generator: Mapping[str, object]  # of the localizer's random numbers
+    scale: float | None = None  # [drawing units per metre] that the user gave
 
     def check_drawing(self, sketch: SchematicMap) -> None:
         """Reject the state of another drawing; raises OtherDrawingError."""

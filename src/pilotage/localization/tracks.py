@@ -23,13 +23,21 @@ BLOCK = 1.0
 SECTORS = 12
 """... if their headings lie in neighboring sectors as well; this is the number of sectors."""
 ROWS = 4_096
-"""Blocks to a column, of any drawing: what lies farther off shares the last ones."""
+"""Numbers of rows and of columns of blocks: what lies farther off shares the last ones."""
+LAST = ROWS - 2
+"""Number of the last row and column: an empty one follows, so that no block has neighbors on the far side."""
 MIN_SHARE = 1e-5
 """Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
 MINOR_SHARE = 0.02
 """Tracks with a smaller share get few particles."""
 MINOR_COUNT = (500, 1_500)
-"""Least and largest number of particles of such a track."""
+"""Least and largest number of particles of a track with a small share."""
+FEWEST = 100
+"""Least number of particles of a track."""
+EXCESS = 10
+"""All tracks together have at most this many times `max_count` particles: of very many each gets fewer."""
+RARE = (1e-12, 0.5)
+"""Limits of a probability that the robot left the drawing or was carried: neither never nor nearly always."""
 RESAMPLE_BELOW = 0.5
 """Effective share of particles below which a track is resampled."""
 
@@ -94,9 +102,14 @@ def normalized(particles: Particles, log_null: float) -> tuple[Particles, float,
     return particles.plus(-log_total), log_null - log_total, log_total
 
 
+def rare(probability: float) -> float:
+    """Bring the probability of a rare event between its limits."""
+    return min(max(probability, RARE[0]), RARE[1])
+
+
 def leave(particles: Particles, log_null: float, probability: float) -> tuple[Particles, float]:
     """Move a share of the mass from all places to the null track: the robot may leave what is drawn."""
-    probability = min(max(probability, 1e-12), 0.5)
+    probability = rare(probability)
     gained = particles.log_mass + math.log(probability)
     return particles.plus(math.log1p(-probability)), float(np.logaddexp(log_null, gained))
 
@@ -134,8 +147,8 @@ def _block_keys(particles: Particles, atlas: Atlas) -> NDArray[np.int64]:
     """Return the number of the block of position and heading of each particle, (n,)."""
     size = BLOCK * math.exp(_mean_log_scale(particles))
     left, bottom = atlas.range_table.corner
-    column = np.clip(np.floor((particles.states[X] - left) / size) + 2, 0, ROWS - 96).astype(np.int64)
-    row = np.clip(np.floor((particles.states[Y] - bottom) / size) + 2, 0, ROWS - 96).astype(np.int64)
+    column = np.clip(np.floor((particles.states[X] - left) / size) + 2, 0, LAST).astype(np.int64)
+    row = np.clip(np.floor((particles.states[Y] - bottom) / size) + 2, 0, LAST).astype(np.int64)
     sector = np.floor(particles.states[HEADING] % math.tau / math.tau * SECTORS).astype(np.int64) % SECTORS
     return np.asarray((column * ROWS + row) * SECTORS + sector)
 
@@ -171,7 +184,12 @@ def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, N
 def _counts(
     shares: Array, labels: NDArray[np.intp], totals: Array, settings: TrackSettings
 ) -> NDArray[np.int64]:
-    """Say how many particles each track needs: a number in proportion to its spread."""
+    """Say how many particles each track needs, (tracks,): in proportion to the area over which it is spread.
+
+    `shares` (blocks,) are those of the mass, `labels` (blocks,) the tracks of the blocks, -1 for none, and
+    `totals` (tracks,) the shares of the tracks. The area is that of equally probable blocks with the same
+    entropy.
+    """
     members = labels >= 0
     inner = shares[members] / totals[labels[members]]
     positive = inner > 0.0
@@ -180,12 +198,12 @@ def _counts(
     minor = totals < MINOR_SHARE * totals.sum()
     wanted = np.where(minor, np.clip(wanted, *MINOR_COUNT), np.maximum(wanted, settings.min_count))
     wanted *= min(1.0, settings.max_count / wanted.sum())
-    least = min(100.0, 10.0 * settings.max_count / len(wanted))  # crumbs must not add up to millions
+    least = min(FEWEST, EXCESS * settings.max_count / len(wanted))
     return np.maximum(wanted, least).astype(np.int64)
 
 
 def _resample(particles: Particles, wanted: int, rng: np.random.Generator) -> Particles:
-    """Resample a track if its weights are uneven, or if it has far more or fewer particles than it needs."""
+    """Resample a track if its weights are uneven, or if far more or fewer particles are `wanted`."""
     count = len(particles)
     is_even = particles.effective_size >= RESAMPLE_BELOW * count
     if is_even and 0.5 * wanted <= count <= 1.5 * wanted:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Polyline
 from pilotage.maps.cells.decomposition import decompose
-from pilotage.maps.cells.free_space import DecompositionSettings, NotEnclosedError
+from pilotage.maps.cells.free_space import NOTHING, DecompositionSettings, NotEnclosedError
 from pilotage.maps.cells.graph import CellGraph
 from pilotage.maps.range_table import RangeTable, RangeTableSettings, build_range_table
 from pilotage.maps.schematic import SchematicMap
@@ -73,7 +73,12 @@ class Atlas:
 
 
 def build_atlas(sketch: SchematicMap, settings: AtlasSettings) -> Atlas:
-    """Derive from a drawing all that localization needs."""
+    """Derive from a drawing all that localization needs.
+
+    Raises NotEnclosedError if all of it is one point.
+    """
+    if sketch.diagonal == 0.0:
+        raise NotEnclosedError(NOTHING)
     range_table = build_range_table(sketch, settings.range_table)
     try:
         cell_graph = decompose(sketch, settings.decomposition)

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array
 from pilotage.maps.schematic import SchematicMap
 
@@ -66,21 +67,18 @@ class RangeTable:
 
         Tolerates one cell and one direction step, so that places close to a wall still see along it.
         """
-        from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
-
         offsets = point - self.middles[lines]
         count = self.log_ranges.shape[1]
         turned = np.floor(np.arctan2(offsets[:, 1], offsets[:, 0]) * count / (2.0 * np.pi)).astype(np.int64)
         beside = (self.log_ranges[lines, (turned + side) % count] for side in (0, 1))
-        ranges = np.exp((np.maximum(*beside) - float(LOG_ZERO)) * LOG_STEP) * self.cell_size
+        levels = np.maximum(*beside) - float(kernels.visibility.LOG_ZERO)
+        ranges = np.exp(levels * kernels.visibility.LOG_STEP) * self.cell_size
         return np.asarray(np.hypot(*offsets.T) <= ranges + self.cell_size)
 
     @cached_property
     def stretch_tables(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
         """Where each stretch turns each direction, and by what it lengthens it."""
-        from pilotage.kernels.visibility import stretch_tables
-
-        return stretch_tables(self.log_ranges.shape[1])
+        return kernels.visibility.stretch_tables(self.log_ranges.shape[1])
 
 
 def build_range_table(sketch: SchematicMap, settings: RangeTableSettings) -> RangeTable:
@@ -89,16 +87,14 @@ def build_range_table(sketch: SchematicMap, settings: RangeTableSettings) -> Ran
     Where no stroke is in sight the range is that of the whole drawing and half as much again. If no place
     is enclosed by strokes, a robot can be anywhere on the sheet.
     """
-    from pilotage.kernels.sweep import sweep
-    from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
-
     left, bottom, right, top = sketch.bounds
     cell = max(right - left, top - bottom) / settings.cells
     columns, rows = (int(np.ceil(extent / cell)) + 1 for extent in (right - left, top - bottom))
     middles = middles_of((left, bottom), cell, columns, rows)
     farthest = 1.5 * sketch.diagonal
-    ranges = sweep(middles, sketch.segments, settings.directions, farthest)
-    levels = np.log(np.maximum(ranges / cell, np.finfo(np.float32).tiny)) / LOG_STEP + LOG_ZERO
+    ranges = kernels.sweep.sweep(middles, sketch.segments, settings.directions, farthest)
+    logs = np.log(np.maximum(ranges / cell, np.finfo(np.float32).tiny))
+    levels = logs / kernels.visibility.LOG_STEP + kernels.visibility.LOG_ZERO
     clearances = ranges.min(axis=1).astype(np.float64)
     met = (ranges < np.float32(farthest)).mean(axis=1)
     free = (clearances > settings.clearance * cell) & (met > settings.enclosed)

@@ -23,10 +23,18 @@ class SteeringSettings:
     def __post_init__(self) -> None:
         """Reject invalid settings."""
         for name in ("speed", "turn_rate", "braking"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
-        if not self.delay >= 0.0:
-            raise ValueError(f"delay must be >= 0 s, got {self.delay}")
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise ValueError(f"{name} must be > 0 and finite, got {getattr(self, name)}")
+        if not 0.0 <= self.delay < math.inf:
+            raise ValueError(f"delay must be >= 0 s and finite, got {self.delay}")
+
+
+def brake(moving: Twist, settings: SteeringSettings) -> Twist:
+    """Command a moving robot to stop on its present arc, which was found free.
+
+    Its turn is what odometry says, which may jump: never faster than the robot may turn.
+    """
+    return Twist(0.0, max(-settings.turn_rate, min(settings.turn_rate, moving.angular)))
 
 
 def braking_path(command: Twist, settings: SteeringSettings) -> Array:

@@ -11,12 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.geometry import Array
+from pilotage.localization.particles import LOG_SCALE, X, Y, displacements
 from pilotage.maps import Atlas, Roadmap
 from pilotage.maps.range_table import RangeTable
 from pilotage.maps.routing.roadmap import Point
-
-X, Y, HEADING, LOG_SCALE = range(4)
-"""Rows of the states of particles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,16 +32,13 @@ class CostToGo:
         """Average over particles (6, m) how much nearer the goal is from points than from here.
 
         Points (n, 2) are in the robot's frame [m]; returns (n,) [m]. Particles without a route to the goal
-        make no progress.
-        The progress of a move is at most its length: if it seems longer, the move leads through a drawn wall.
+        make no progress. The progress of a move is at most its length: if it seems longer, the move leads
+        through a drawn wall.
         """
-        from pilotage.kernels.displacement import displace
-
         here = self.at(states[[X, Y]].T)
         progress = np.zeros(len(points))
-        ones = np.ones(states.shape[1])
         for index, (x, y) in enumerate(points):
-            there = self.at((states[[X, Y]] + displace(states, x * ones, y * ones)).T)
+            there = self.at((states[[X, Y]] + displacements(states, x, y)).T)
             leads = np.isfinite(here) & np.isfinite(there)
             nearer = (here[leads] - there[leads]) / np.exp(states[LOG_SCALE, leads])
             progress[index] = np.clip(nearer, -math.hypot(x, y), math.hypot(x, y)).sum()

@@ -8,6 +8,7 @@ from pilotage.geometry import Pose2, Twist, wrap_angle
 from pilotage.localization import BlockedWay, Estimate, Localizer, Status
 from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry
+from pilotage.scan_matching.odometry import reported_motion
 
 EVERY = 0.15
 """Distance [m] between two scans that the localizer gets: as in the logs that it was tuned on."""
@@ -35,11 +36,13 @@ class DeadReckoning:
     def update(self, scan: LaserScan, odometry: Odometry) -> None:
         """Take one scan in."""
         before = self.odom_from_base if self._now is not None else None
-        self.twist = STILL if self._now is None else twist_between(self._now, odometry)
+        if self._now is not None and reported_motion(self._now, odometry) is not None:
+            self.twist = twist_between(self._now, odometry)  # else the robot is taken to go on as before
         self._now = odometry
         motion = self._since_localized
         is_first = self._localized is None
-        self.is_fresh = is_first or math.hypot(motion.x, motion.y) >= EVERY or abs(motion.theta) >= EVERY_TURN
+        has_moved = math.hypot(motion.x, motion.y) >= EVERY or abs(motion.theta) >= EVERY_TURN
+        self.is_fresh = is_first or has_moved or not odometry.is_known  # then only scans tell of motion
         if self.is_fresh:
             was_located = not is_first and self.localized.status is Status.LOCATED
             estimate = self.localizer.update(scan, odometry)

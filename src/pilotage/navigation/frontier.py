@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array
 from pilotage.localization import PoseHypothesis
 from pilotage.maps import Atlas
@@ -111,7 +112,7 @@ def frontier_worth(
     hypotheses: tuple[PoseHypothesis, ...],
     atlas: Atlas,
 ) -> Array:
-    """Return what frontiers are worth, but for the goal, (k,) [m].
+    """Return what frontiers are worth apart from the progress towards the goal, (k,) [m].
 
     `frontiers` (k,) are indices of `reachable.points`; `avoided` (n, 2) is where the robot was or could not
     get to, in odom [m].
@@ -134,8 +135,6 @@ def range_differences(points: Array, hypotheses: tuple[PoseHypothesis, ...], atl
     Points are in the robot's frame [m]. The difference is the standard deviation of log ranges [m] between
     hypotheses, weighted by their probabilities and averaged over directions.
     """
-    from pilotage.kernels.visibility import LOG_STEP
-
     if len(hypotheses) < 2:
         return np.zeros(len(points))
     table = atlas.range_table
@@ -148,7 +147,7 @@ def range_differences(points: Array, hypotheses: tuple[PoseHypothesis, ...], atl
         lines = table.lines_at(one.sketch_from_base @ points)
         theta, scale = one.sketch_from_base.pose.theta, one.sketch_from_base.scale
         turned = np.round((directions + theta) / (2.0 * np.pi) * count).astype(np.int64) % count
-        logs.append(table.log_ranges[np.ix_(lines, turned)] * LOG_STEP - np.log(scale))
+        logs.append(table.log_ranges[np.ix_(lines, turned)] * kernels.visibility.LOG_STEP - np.log(scale))
     stacked = np.stack(logs)
     mean = np.tensordot(probabilities, stacked, 1)
     variance = np.tensordot(probabilities, (stacked - mean) ** 2, 1)

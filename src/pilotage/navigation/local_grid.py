@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array, Pose2
 from pilotage.perception import LaserScan
 
@@ -30,8 +31,8 @@ EASY = 0.35
 BLOCK = 4
 """Cells to the side of a block that is closed or not as one: 20 cm."""
 
-LARGEST_RADIUS = 0.6
-"""Radius of a robot [m] up to which clearances are measured."""
+USUAL_RADIUS = 0.6
+"""Clearances are measured as far as a robot of this radius [m] needs, or a larger one."""
 
 NO_RETURN = 3.0
 """Length of a beam [m] that counts as free if neither it nor its neighbors return."""
@@ -59,8 +60,6 @@ class LocalGrid:
 
     def seen(self, scan: LaserScan, odom_from_base: Pose2) -> "LocalGrid":
         """Move the grid along with the robot and enter a scan."""
-        from pilotage.kernels.local_grid import mark
-
         evidence, corner = self._recentered(odom_from_base)
         cell = self.cell
         odom_from_laser = odom_from_base @ scan.base_from_laser
@@ -70,7 +69,8 @@ class LocalGrid:
         nothing &= np.roll(nothing, 1) & np.roll(nothing, -1)
         ranges[nothing] = min(NO_RETURN, scan.range_max)
         origin = (odom_from_laser.x / cell - corner[0], odom_from_laser.y / cell - corner[1])
-        mark(evidence, origin, *densified(odom_from_laser.theta + scan.directions, ranges / cell, returned))
+        beams = densified(odom_from_laser.theta + scan.directions, ranges / cell, returned)
+        kernels.local_grid.mark(evidence, origin, *beams)
         return LocalGrid(evidence, corner, odom_from_base, cell)
 
     def _recentered(self, odom_from_base: Pose2) -> tuple[NDArray[np.int8], tuple[int, int]]:
@@ -107,27 +107,19 @@ class LocalGrid:
         return replace(self, evidence=np.where(closed, np.int8(1), self.evidence))
 
     @cached_property
-    def clearances(self) -> NDArray[np.float32]:
-        """From each grid cell to the nearest obstacle [cells], as far as it matters for a large robot."""
-        from pilotage.kernels.local_grid import clearances
-
-        return clearances(self.evidence, math.ceil((EASY + LARGEST_RADIUS) / self.cell))
-
-    @cached_property
     def obstacles(self) -> Array:
         """The middles of the occupied cells in odom, (n, 2) [m]."""
         return self.middles(np.argwhere(self.evidence > 0))
 
     def reachable_set(self, radius: float) -> "ReachableSet":
         """Find where a disc of this radius [m] can go over space that was seen free."""
-        from pilotage.kernels.local_grid import flood
-
+        farthest = math.ceil((EASY + max(radius, USUAL_RADIUS)) / self.cell)
         start = self.cells_at(self.odom_from_base.position[np.newaxis])[0]
         tight, easy = (radius + CLEARANCE) / self.cell, (radius + EASY) / self.cell
         # a cell's clearance is measured from middle to middle: half a cell of either may be nearer
-        costs, before = flood(
+        costs, before = kernels.local_grid.flood(
             self.evidence,
-            self.clearances,
+            kernels.local_grid.clearances(self.evidence, farthest),
             (int(start[0]), int(start[1])),
             tight + 0.5,
             easy + 0.5,
@@ -147,9 +139,7 @@ class ReachableSet:
     @cached_property
     def cells(self) -> NDArray[np.int64]:
         """The reachable grid cells, (n, 2)."""
-        from pilotage.kernels.local_grid import UNREACHED
-
-        return np.argwhere(self.costs < UNREACHED)
+        return np.argwhere(self.costs < kernels.local_grid.UNREACHED)
 
     @cached_property
     def points(self) -> Array:
@@ -159,10 +149,8 @@ class ReachableSet:
     @cached_property
     def lengths(self) -> Array:
         """The cost of the path to each, (n,) [m at full clearance]."""
-        from pilotage.kernels.local_grid import STRAIGHT
-
         costs = self.costs[self.cells[:, 0], self.cells[:, 1]]
-        return np.asarray(costs * (self.local_grid.cell / STRAIGHT))
+        return np.asarray(costs * (self.local_grid.cell / kernels.local_grid.STRAIGHT))
 
     def nearest(self, point: Array, *, path_cost: float, extra: Array) -> int:
         """Choose of `points` the one nearest to a point (2,) in odom.

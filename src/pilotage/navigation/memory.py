@@ -41,7 +41,7 @@ class Memory:
     detours: int = 0  # how often the robot stalled on its route
     detour_until: float = -math.inf  # [s] stamp until which it explores because of that
     mismatch_since: float = math.inf  # [s] stamp since when the drawing does not fit
-    blocked_way: BlockedWay | None = None  # in odom, that the robot has just found blocked on its route
+    blocked_way: BlockedWay | None = None  # in odom; found blocked on the route since the last plan
 
     @classmethod
     def at_start(cls, scan: LaserScan, estimate: Estimate) -> "Memory":
@@ -116,4 +116,4 @@ def after_stall(memory: Memory, plan: Plan, stamp: float) -> Memory:
         return replace(restarted, exploration=memory.exploration.given_up())
     if plan.behavior is Behavior.DRIVE_ON:
         return replace(restarted, arrival=memory.arrival.forgotten())
-    return memory
+    return restarted

@@ -20,10 +20,9 @@ from pilotage.navigation.local_grid import LocalGrid
 from pilotage.navigation.memory import PLAN_EVERY, Memory
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.planner import RoutePlanner
-from pilotage.navigation.rectangle import turned_or_backed_out
 from pilotage.navigation.settings import NavigatorSettings
 from pilotage.navigation.situation import Situation
-from pilotage.navigation.steering import steer, turn_on_the_spot
+from pilotage.navigation.steering import steer, turn, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Place, Step
 from pilotage.navigation.tour import HOME, Tour, tour_of
 from pilotage.perception import LaserScan, Odometry
@@ -51,9 +50,10 @@ class Navigator:
     """Drives to a goal, or to several in order.
 
     A goal is the name of a room, reached anywhere in it, or a point in the drawing's own units and axes; a
-    `Tour` holds several, and can go round and return. The time limit is that of each goal. `blocked` are ids
-    of gateways that were found blocked before. Raises RouteError if a goal cannot be reached on this drawing,
-    NotEnclosedError if the drawing has no cells, ValueError if a point is not finite.
+    `Tour` holds several, and can go round and return. Each goal has the time limit of the settings. `blocked`
+    are ids of gateways that were found blocked before. Raises RouteError if a goal cannot be reached on this
+    drawing, NotEnclosedError if the drawing has no cells, ValueError if a point is not finite or an id is not
+    of this drawing.
     """
 
     def __init__(
@@ -67,6 +67,9 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
         self.planner = self._first_planner(localizer)
+        unknown = sorted(set(blocked) - {gateway.gateway_id for gateway in self.planner.graph.gateways})
+        if unknown:
+            raise ValueError(f"blocked must hold ids of gateways of this drawing, got {', '.join(unknown)}")
         self.zones = localizer.atlas.sketch.zones
         self.position = DeadReckoning(localizer)
         self.local_grid = LocalGrid.unknown()
@@ -202,20 +205,16 @@ class Navigator:
         """Turn the plan into a command to the wheels, and say what the robot does."""
         plan, steering, twist = self.plan, self.settings.steering, self.position.twist
         if is_blind(scan):
-            return turn_on_the_spot(0.0, twist), Behavior.REST if plan.outcome else Behavior.WAIT
+            return turn_on_the_spot(0.0, steering, twist), Behavior.REST if plan.outcome else Behavior.WAIT
         if plan.behavior is Behavior.REST:
-            return turn_on_the_spot(0.0, twist), Behavior.REST
+            return turn_on_the_spot(0.0, steering, twist), Behavior.REST
         rectangle = self.settings.rectangle
-        if len(plan.path) == 0 and rectangle is None:
-            return turn_on_the_spot(TURNING * steering.turn_rate, twist), Behavior.LOOK_AROUND
         base_from_odom = self.local_grid.odom_from_base.inverse()
         remembered = base_from_odom @ self.local_grid.obstacles
         obstacles = np.vstack([scan.points_in_base, remembered[remembered[:, 0] < BEHIND]])
         if len(plan.path) == 0:
             around = TURNING * steering.turn_rate
-            assert rectangle is not None  # told above
-            turn = turned_or_backed_out(around, obstacles, rectangle, steering, twist)
-            return turn, Behavior.LOOK_AROUND
+            return turn(around, obstacles, steering, twist, rectangle), Behavior.LOOK_AROUND
         path = base_from_odom @ plan.path
         passed = int(np.hypot(path[:, 0], path[:, 1]).argmin())
         if self.zones.is_slow(self.position.estimate.sketch_from_base.translation):

@@ -23,7 +23,10 @@ class RoutePlanner:
         self._cost_to_go = lru_cache(maxsize=1)(self._find_costs)
 
     def leg(self, estimate: Estimate, blocked: BlockedGateways) -> tuple[RouteLeg | None, BlockedGateways]:
-        """Find the next waypoint; if all routes are blocked, all gateways are tried again."""
+        """Find the next leg of the route, and the gateways that stay blocked.
+
+        If all routes are blocked, all gateways are open again; None if there is still no route.
+        """
         for candidate in (blocked, blocked.all_reopened()) if blocked.gateway_ids else (blocked,):
             try:
                 leg = next_waypoint(

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from pilotage.geometry import Array, Twist
-from pilotage.navigation.braking import SLOW, SteeringSettings, braking_path
+from pilotage.navigation.braking import SLOW, SteeringSettings, brake, braking_path
 from pilotage.navigation.local_grid import CLEARANCE
 
 BACKWARD = 0.15
@@ -66,7 +66,7 @@ def turned_or_backed_out(
 ) -> Twist:
     """Turn [rad/s] on the spot if there is room, else back out, else turn the other way, else stand."""
     if abs(moving.linear) > SLOW:
-        return Twist(0.0, moving.angular)  # on its arc, which was found free
+        return brake(moving, settings)
     candidates = (Twist(0.0, wanted), Twist(-BACKWARD, 0.0), Twist(0.0, -wanted))
     for command in candidates:
         if is_free_to_obey(command, obstacles, size, settings):

@@ -97,7 +97,7 @@ def gateway_at(route: Route, graph: CellGraph, index: int) -> Gateway | None:
     """Return the gateway at a vertex of the route, or None for a bend or the goal."""
     for gateway_id in route.gateway_ids:
         gateway = graph.gateway(gateway_id)
-        if np.allclose(gateway.middle, route.way[index]):
+        if np.array_equal(gateway.middle, route.way[index]):
             return gateway
     return None
 

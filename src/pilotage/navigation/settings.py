@@ -1,5 +1,6 @@
 """How the robot drives."""
 
+import math
 from dataclasses import dataclass, field
 
 from pilotage.maps import RouteSettings
@@ -29,13 +30,15 @@ class NavigatorSettings:
 
     def __post_init__(self) -> None:
         """Reject invalid settings."""
-        for name in ("radius", "time_limit", "near", "patience"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be > 0, got {getattr(self, name)}")
+        for name in ("radius", "near", "patience"):
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise ValueError(f"{name} must be > 0 and finite, got {getattr(self, name)}")
+        if not self.time_limit > 0.0:
+            raise ValueError(f"time_limit must be > 0 s, got {self.time_limit}")
         for name in ("blocked_for", "mismatch_patience"):
             if not getattr(self, name) >= 0.0:
                 raise ValueError(f"{name} must be >= 0 s, got {getattr(self, name)}")
-        if not (self.length == 0.0 or self.length >= 2.0 * self.radius):
+        if not (self.length == 0.0 or 2.0 * self.radius <= self.length < math.inf):
             raise ValueError(f"length must be 0 or at least the width {2.0 * self.radius}, got {self.length}")
         for name in ("act_on", "sure"):
             if not 0.0 <= getattr(self, name) <= 1.0:

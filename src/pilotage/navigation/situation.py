@@ -1,4 +1,4 @@
-"""What the robot knows when it plans, and what it plans: the values between sensing and acting."""
+"""What the robot knows when it plans: the value between sensing and acting."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class Situation:
     stamp: float  # [s]
     estimate: Estimate  # for now
     twist: Twist
-    has_moved: bool  # since the first scan: before, the robot knows exactly what it was told
+    has_moved: bool  # since the first scan; until then the robot stands where it was told
     turned: float  # [rad] sum of all turns
     trail: Array  # (n, 2) where the robot was, in odom [m]
     local_grid: LocalGrid

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from pilotage.geometry import Array, Twist
-from pilotage.navigation.braking import SLOW, SteeringSettings, braking_path
+from pilotage.navigation.braking import SLOW, SteeringSettings, brake, braking_path
 from pilotage.navigation.local_grid import CLEARANCE
 from pilotage.navigation.rectangle import is_free_to_obey, turned_or_backed_out
 
@@ -41,8 +41,8 @@ def steer(
 
     `moving` is how the robot moves now, `sight` how far it sees [m]: farther away may be obstacles.
     With a `rectangle`, length and width [m], the whole of it must have room; `radius` is half its width.
-    Where no forward command is safe, the robot stands or turns on the spot. A robot that moves first brakes
-    on its arc, which was found free.
+    Where no forward command is safe, the robot stands or turns on the spot. One that still moves brakes
+    before it turns, on its arc, which was found free.
     """
     ahead = lookahead_point(path, obstacles, radius + CLEARANCE, LOOK_AHEAD)
     bearing = math.atan2(ahead[1], ahead[0])
@@ -58,14 +58,25 @@ def steer(
                 continue
             if rectangle is None or is_free_to_obey(braking, obstacles, rectangle, settings):
                 return command
-    if rectangle is not None:
-        return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
-    return turn_on_the_spot(angular, moving)
+    return turn(angular, obstacles, settings, moving, rectangle)
 
 
-def turn_on_the_spot(angular: float, moving: Twist) -> Twist:
-    """Turn [rad/s] once the robot stands; until then brake on its present arc, which was found free."""
-    return Twist(0.0, moving.angular if moving.linear > SLOW else angular)
+def turn(
+    angular: float,
+    obstacles: Array,
+    settings: SteeringSettings,
+    moving: Twist,
+    rectangle: tuple[float, float] | None,
+) -> Twist:
+    """Turn [rad/s] on the spot among obstacles (n, 2); a rectangle without the room for it backs out."""
+    if rectangle is None:
+        return turn_on_the_spot(angular, settings, moving)
+    return turned_or_backed_out(angular, obstacles, rectangle, settings, moving)
+
+
+def turn_on_the_spot(angular: float, settings: SteeringSettings, moving: Twist) -> Twist:
+    """Turn [rad/s] once the robot stands; until then brake."""
+    return brake(moving, settings) if moving.linear > SLOW else Twist(0.0, angular)
 
 
 def lookahead_point(path: Array, obstacles: Array, room: float, distance: float) -> Array:

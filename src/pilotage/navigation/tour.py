@@ -1,7 +1,8 @@
 """Several goals in order: which of them are over, and which is next."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 
 from pilotage.navigation.step import Outcome, Place, Visit
 
@@ -82,21 +83,24 @@ def tour_of(goal: Place | Sequence[Place] | Tour) -> Tour:
 
     >>> tour_of((3.0, 4.0)).goals, tour_of(["kitchen", (3.0, 4.0)]).goals
     (((3.0, 4.0),), ('kitchen', (3.0, 4.0)))
+
+    Raises ValueError if a goal is neither a name nor a point.
     """
     if isinstance(goal, Tour):
         return goal
     if isinstance(goal, str):
         return Tour((goal,))
-    if len(goal) == 2 and not any(isinstance(one, (str, Sequence)) for one in goal):
+    if len(goal) == 2 and all(isinstance(one, Real) for one in goal):
         return Tour((as_point(goal),))
     return Tour(tuple(one if isinstance(one, str) else as_point(one) for one in goal))
 
 
 def as_point(numbers: object) -> tuple[float, float]:
-    """Check that a point is two numbers."""
-    match numbers:
-        case [float() | int() as x, float() | int() as y]:
-            return float(x), float(y)
+    """Check that a point is two numbers, of whatever type; raises ValueError if not."""
+    if isinstance(numbers, Iterable) and not isinstance(numbers, str):
+        match tuple(numbers):
+            case (Real() as x, Real() as y):
+                return float(x), float(y)
     raise ValueError(f"a goal must be a name or a point x, y, got {numbers}")
 
 

@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from pilotage.correction import Fit, Sighting, fit_drawing, give_way
+from pilotage.correction import BackgroundCorrection, Sighting, fit_drawing, give_way
 from pilotage.io.bags.bent_frame import BentFrame
 from pilotage.maps import Atlas
 from pilotage.ros.session import Session
@@ -82,7 +82,7 @@ class Correcting:
         self._connection.send((is_anew, seen[0 if is_anew else self._sent :]))
         self._sent, self._began, self._asked, self.waits = len(seen), began, self._clock(), True
 
-    def _take(self, fit: Fit) -> None:
+    def _take(self, fit: BackgroundCorrection) -> None:
         """Use a corrected drawing if it is news."""
         self.waits, self.took = False, fit.took
         corrected = fit.corrected

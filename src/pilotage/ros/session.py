@@ -1,6 +1,7 @@
 """One robot on one drawing: readings, starts and goals in; beliefs and commands out. It knows no network."""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -65,7 +66,7 @@ class Session:
             self.sightings += resumed.sightings
         self.sightings_began = 0  # how often they were begun anew, or made fewer
         self._settings, self._seed, self._scale = settings, seed, scale
-        self._blocked: tuple[str, ...] = () if resumed is None else resumed.blocked
+        self._blocked: tuple[str, ...] = () if resumed is None else known_gateways(atlas, resumed.blocked)
         if resumed is None:
             self._localizer = Localizer(atlas, settings[0], seed=seed, start=start, scale=scale)
         else:
@@ -209,3 +210,10 @@ class Session:
         self._is_settled = True
         if abs(math.log(estimate.scale / self.frame.scale)) > OTHER_SCALE:
             self.frame = MapFrame(self.atlas.sketch, estimate.scale)
+
+
+def known_gateways(atlas: Atlas, gateway_ids: Collection[str]) -> tuple[str, ...]:
+    """Keep the ids of gateways that the drawing has: other settings may have divided it otherwise."""
+    gateways = () if atlas.cell_graph is None else atlas.cell_graph.gateways
+    known = {gateway.gateway_id for gateway in gateways}
+    return tuple(one for one in gateway_ids if one in known)

@@ -2,8 +2,7 @@
 
 Each perceived shape is matched with the shapes of the map near it. Each match induces a pose of the robot,
 and their mean is taken. This is `Method.SHAPES`, an option: a pose from point to segment is more exact and
-faster
-(decision 0006).
+faster (decision 0006).
 """
 
 import math

@@ -18,6 +18,9 @@ from pilotage.shape.simplify import Simplification, simplify_all
 FRAME = 0.5
 """Margin of outside around the drawing, as a share of its diameter: wider than any pocket is deep."""
 
+AT_FRAME = 1e-5
+"""A piece reaches the frame if it comes this near to it, as a share of the frame's longer side: rounding."""
+
 BLOB = 0.01
 """Smaller free-standing groups of strokes are dropped, as a share of the diameter: chairs, letters, blots."""
 
@@ -171,7 +174,8 @@ def find_outside(tessellation: Tessellation, is_wide: NDArray[np.bool_]) -> NDAr
     """Flood from the frame through wide chords (n,), (p,)."""
     bounds = shapely.bounds(tessellation.pieces)
     box = shapely.total_bounds(tessellation.pieces)
-    at_frame = np.isclose(bounds, box).any(axis=1)
+    extent = float(max(box[2] - box[0], box[3] - box[1]))
+    at_frame = (np.abs(bounds - box) <= AT_FRAME * extent).any(axis=1)
     passable = tessellation.with_chords(is_wide)
     parts = passable.connected(np.ones(len(bounds), dtype=bool))
     return np.isin(parts, parts[at_frame])

@@ -25,7 +25,6 @@ JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
 THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
 """A threshold is no deeper than its doors are wide, and these are this share of its own width."""
 
-
 COLUMN = 0.5
 """What parts two openings is a column, no wall, if it is no wider than this share of one of them."""
 

@@ -24,7 +24,6 @@ Point = tuple[float, float]
 GRAZE = 2e-3
 """Share of its size by which a cell is widened for visibility tests: paths may touch corners and gateways."""
 
-
 NO_ZONES = Zones()
 
 
@@ -116,7 +115,10 @@ class Roadmap:
             self._add_paths(cell.cell_id)
 
     def find(self, start: Point, goal: Point, closed: Collection[str] = ()) -> Route:
-        """Find the cheapest route between two points [drawing units]; raises RouteError if there is none."""
+        """Find the cheapest route between two points [drawing units], not through `closed` gateways.
+
+        Raises RouteError if there is none, and KeyError if a gateway is none of the graph.
+        """
         net = self._open_net(closed)
         ends = [np.array(end, dtype=np.float64) for end in (start, goal)]
         points = [*self._points, *ends]
@@ -129,9 +131,9 @@ class Roadmap:
         net.add_edges_from(backwards(self._paths_from(last, ends[1], cell_ids[1], points, beside)))
         found = rustworkx.dijkstra_shortest_paths(net, first, target=last, weight_fn=lambda edge: edge.cost)
         if last not in found:
-            raise RouteError(
-                f"no way leads from cell {cell_ids[0]} to cell {cell_ids[1]}: no gateways join them"
-            )
+            is_barred = closed or self.zones.keep_out or self.zones.one_way
+            why = "blocked gateways or zones are in the way" if is_barred else "no gateways join them"
+            raise RouteError(f"no way leads from cell {cell_ids[0]} to cell {cell_ids[1]}: {why}")
         nodes = list(found[last])
         return self._route(
             cell_ids[0],
@@ -140,9 +142,10 @@ class Roadmap:
         )
 
     def exits_to(self, goal: Point, closed: Collection[str] = ()) -> dict[str, list[tuple[Array, float]]]:
-        """List, by cell, the nodes on paths to the goal, which is one, with the cost left from each.
+        """List, by cell, the nodes from which a path leads to the goal, each with the cost of that path.
 
-        A node is a point (2,), and the cost one as in `Route`. A cell without a path to the goal has none.
+        A node is a point (2,), and the goal is one; costs are shares of the diameter, as in `Route`. A cell
+        without a path to the goal has no nodes.
         """
         net, goal_id = self._open_net(closed), self.graph.cell_at(goal)
         end = np.array(goal, dtype=np.float64)
@@ -170,7 +173,7 @@ class Roadmap:
         return net
 
     def _walkable(self, cell: Cell) -> shapely.Geometry:
-        """Take keep-out zones from a cell."""
+        """Subtract keep-out zones from a cell."""
         area = self.zones.keep_out_area
         return shapely.difference(cell.polygon, area) if area.intersects(cell.polygon) else cell.polygon
 

@@ -15,7 +15,7 @@ POLITE = 10
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class BackgroundCorrection:
     """What a process beside a drive found."""
 
     corrected: CorrectedDrawing | None  # None if the robot was not sure enough yet
@@ -28,11 +28,11 @@ def give_way() -> None:
         os.nice(POLITE)
 
 
-def fit_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> Fit:
+def fit_drawing(atlas: Atlas, sightings: Sequence[Sighting]) -> BackgroundCorrection:
     """Correct a drawing as far as the robot is sure, and measure what that costs."""
     began = time.process_time()
     try:
         corrected = correct_drawing(atlas, sightings)
     except NothingBelievedError:
         corrected = None
-    return Fit(corrected, time.process_time() - began)
+    return BackgroundCorrection(corrected, time.process_time() - began)
