@@ -2,6 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+PARALLEL := -n 2 --dist loadfile  # two processes of tests, which start some of their own; each file in one
 unexport PYTHONDONTWRITEBYTECODE  # tests start many processes: each shall find its modules compiled
 
 .PHONY: demo table page check test fix reference bench clean
@@ -20,10 +21,10 @@ check: $(VENV)/ready-dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest
+	$(BIN)/pytest $(PARALLEL)
 
 test: $(VENV)/ready-dev  # the fast part of the tests, for the loop of editing
-	$(BIN)/pytest -m "not slow"
+	$(BIN)/pytest $(PARALLEL) -m "not slow"
 
 reference: $(VENV)/ready  # the page that lists all settings
 	mkdir -p docs/reference

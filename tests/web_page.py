@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 PICTURES = os.environ.get("TABLE_PICTURES")
 """Folder in which the pictures of the journeys are kept; without it none are taken."""
 
-PATIENCE_MS = 15_000
+PATIENCE_MS = 60_000
 """The machine may be busy with other tests."""
 
 

@@ -23,7 +23,7 @@ def archive(name):
     [
         ("a.svg", b"<svg/>", Kind.SVG),
         ("a.xml", b'<?xml version="1.0"?><!-- <osm> --><svg:svg/>', Kind.SVG),
-        ("a.svgz", gzip.compress(b"<svg/>"), Kind.SVG),
+        ("a.svgz", gzip.compress(b"<svg/>", mtime=0), Kind.SVG),
         ("photo.svg", b"\x89PNG\r\n\x1a\n", Kind.PICTURE),
         ("plan.txt", b"%PDF-1.7", Kind.PDF),
         ("plan", b"  0\nSECTION\n", Kind.DXF),
