@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from buildings import coarse, flat, readings_of, walk
 from pilotage.errors import FileError
 from pilotage.io.state import TREE, read_state, resume, save_state
-from pilotage.localization import Localizer, LocalizerSettings
+from pilotage.localization import BlockedWay, Localizer, LocalizerSettings
 from pilotage.maps import build_atlas
 
 SETTINGS = LocalizerSettings(atlas=coarse())
@@ -33,16 +33,24 @@ def run(localizer, readings):
     return [line_of(localizer.update(scan, odometry)) for scan, odometry in readings]
 
 
+def first_half(localizer):
+    """Localize along the first readings, and find a way blocked."""
+    estimates = run(localizer, READINGS[:20])
+    localizer.add_blocked_way(BlockedWay((0.5, 0.0), (2.0, 0.5)))
+    return estimates
+
+
 @pytest.fixture(scope="module")
 def unbroken():
-    return run(Localizer(ATLAS, SETTINGS, seed=3), READINGS)
+    localizer = Localizer(ATLAS, SETTINGS, seed=3)
+    return first_half(localizer) + run(localizer, READINGS[20:])
 
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory):
     path = tmp_path_factory.mktemp("state") / "flat.state"
     localizer = Localizer(ATLAS, SETTINGS, seed=3)
-    run(localizer, READINGS[:20])
+    first_half(localizer)
     save_state(path, localizer, ("g1",))
     return path
 

@@ -19,7 +19,14 @@ from pilotage.correction import Sighting
 from pilotage.errors import FileError, PilotageError, shown
 from pilotage.geometry import Affine2, Homography, Polyline, Pose2
 from pilotage.io.files import read_bytes, replacing
-from pilotage.localization import Estimate, Localizer, LocalizerSettings, PoseHypothesis, Status
+from pilotage.localization import (
+    BlockedWay,
+    Estimate,
+    Localizer,
+    LocalizerSettings,
+    PoseHypothesis,
+    Status,
+)
 from pilotage.localization.keyframes import Keyframe
 from pilotage.localization.particles import Particles
 from pilotage.localization.sensor_model import SparseScan
@@ -48,9 +55,9 @@ NAMED, ARRAY, FREE = "type", "array", "items"
 TYPES: Mapping[str, type] = {
     kind.__name__: kind
     for kind in (
-        Affine2, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap, LocalizerState,
-        Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis, Sighting,
-        SparseScan, Status, Track, Tracks,
+        Affine2, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap,
+        LocalizerState, Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis,
+        Sighting, SparseScan, Status, Track, Tracks,
     )
 }  # fmt: skip
 """All types that a state may hold."""
