@@ -73,7 +73,7 @@ def test_a_drawing_that_explains_nothing_is_to_blame_after_some_metres_only():
 
 def test_places_too_improbable_to_count_are_still_told():
     tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
-    faint = Tracks((Track(tracks.particles.plus(-2000.0)),), 0.0)
+    faint = Tracks((Track(tracks.particles.scaled(-2000.0)),), 0.0)
     estimate = summarize(faint, 0.0, 0.0, 20.0, ATLAS)
 
     assert Status.MISMATCH is estimate.status

@@ -27,6 +27,7 @@ from pilotage.localization import (
     PoseHypothesis,
     Status,
 )
+from pilotage.localization.belief import Belief
 from pilotage.localization.keyframes import Keyframe
 from pilotage.localization.particles import Particles
 from pilotage.localization.sensor_model import SparseScan
@@ -40,7 +41,7 @@ from pilotage.shape import PartialShape
 from pilotage.shape.corners import Corners
 from pilotage.shape.partial import EndCause
 
-VERSION = 1
+VERSION = 2
 """Of the format; a state of another version is refused."""
 
 LARGEST = 1 << 27
@@ -55,7 +56,7 @@ NAMED, ARRAY, FREE = "type", "array", "items"
 TYPES: Mapping[str, type] = {
     kind.__name__: kind
     for kind in (
-        Affine2, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap,
+        Affine2, Belief, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap,
         LocalizerState, Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis,
         Sighting, SparseScan, Status, Track, Tracks,
     )

@@ -64,7 +64,7 @@ def global_search(
         states = np.where(taken, tried, states)
         scores = np.where(taken, tried_scores, scores)
     found = Particles(states, scores)
-    return found.plus(log_mass - found.log_mass)
+    return found.scaled(log_mass - found.log_mass)
 
 
 def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorModel, weight: float) -> Array:

@@ -1,29 +1,24 @@
 """Scan in, estimate out: a clustered particle filter over the places of a drawing."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pilotage.geometry import Array, Pose2, segments_of
+from pilotage.localization.belief import Belief, first_belief
 from pilotage.localization.blocked_way import BlockedWay, log_ratio_of_ways
 from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import SCANS, global_search
-from pilotage.localization.keyframes import (
-    Keyframe,
-    append_blocked_way,
-    append_keyframe,
-    choose_keyframes,
-)
+from pilotage.localization.keyframes import append_blocked_way, append_keyframe, choose_keyframes
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.observation import Observation, observe
 from pilotage.localization.particles import Particles, join
-from pilotage.localization.prior import Prior, check_scale, draw_anywhere, draw_near
+from pilotage.localization.prior import Prior, check_scale
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
 from pilotage.localization.state import LocalizerState, fingerprint
-from pilotage.localization.tracks import Track, Tracks, TrackSettings, cluster, leave, normalized, rare
+from pilotage.localization.tracks import Tracks, TrackSettings, cluster, leave, normalized, rare
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
@@ -41,8 +36,6 @@ SETTLED_PROPOSALS = 0.25
 """Share of the proposals that a search tries while the place is settled."""
 MIN_CARRIED = 0.05
 """[m] of travel since a search that counts at least: a robot that only turns may have been carried, too."""
-FIXED = ("settings", "atlas", "scan_matcher", "_prior", "_scale", "_rng", "_model")
-"""Attributes that do not change from scan to scan, or have a state of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,16 +94,7 @@ class Localizer:
         self._rng = np.random.default_rng(seed)
         self._model = SensorModel(self.atlas, self.settings.sensor)
         self.scan_matcher = ScanMatcher(self.settings.scan_matching)
-        self._log_told = 0.0 if start is None else -self.settings.tracks.told_log_odds
-        self.tracks = self._first_tracks(start)
-        self._motion: Pose2 | None = None  # since the last keyframe; None before the first scan
-        self._window: tuple[Keyframe, ...] = ()
-        self.log_evidence = 0.0  # of this drawing over that of any building, since the first scan
-        self._log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of each keyframe
-        self._fits: tuple[float, ...] = ()
-        self._searched = 0.0  # [m] of travel at the last search
-        self._keyframe_estimate: Estimate | None = None
-        self._estimate: Estimate | None = None
+        self._belief = first_belief(start, self.atlas, self._prior, self.settings.tracks, self._rng)
 
     @classmethod
     def resumed(
@@ -132,7 +116,7 @@ class Localizer:
         state.check_drawing(drawing.sketch if isinstance(drawing, Atlas) else drawing)
         scale = state.scale if scale is None else scale
         localizer = cls(drawing, settings, start=(0.0, 0.0), scale=scale)  # few particles, and replaced
-        vars(localizer).update(state.localizer)
+        localizer._belief = state.belief
         vars(localizer.scan_matcher).update(state.scan_matcher)
         localizer._rng.bit_generator.state = dict(state.generator)
         if stood:
@@ -143,16 +127,25 @@ class Localizer:
     def state(self) -> LocalizerState:
         """All that was learned so far; `resumed` goes on from it."""
         matcher = {name: value for name, value in vars(self.scan_matcher).items() if name != "settings"}
-        own = {name: value for name, value in vars(self).items() if name not in FIXED}
         generator = self._rng.bit_generator.state
-        return LocalizerState(fingerprint(self.atlas.sketch), own, matcher, generator, self._scale)
+        return LocalizerState(fingerprint(self.atlas.sketch), self._belief, matcher, generator, self._scale)
 
     @property
     def estimate(self) -> Estimate:
         """The last estimate; ValueError before the first update."""
-        if self._estimate is None:
+        if self._belief.estimate is None:
             raise ValueError("an estimate needs at least one scan, got none")
-        return self._estimate
+        return self._belief.estimate
+
+    @property
+    def tracks(self) -> Tracks:
+        """The places where the robot may be."""
+        return self._belief.tracks
+
+    @property
+    def log_evidence(self) -> float:
+        """The log-evidence of this drawing over that of any building, since the first scan [nats]."""
+        return self._belief.log_evidence
 
     def sample(self, count: int) -> Array:
         """Pick states of equally probable particles, for planning over all tracks, (6, count)."""
@@ -163,26 +156,21 @@ class Localizer:
 
         ValueError before the first update.
         """
-        estimate = self._keyframe_estimate
+        estimate = self._belief.at_keyframe
         if estimate is None:
             raise ValueError("an explanation needs at least one scan, got none")
         least = Simplification(self.settings.atlas.detail * self.atlas.sketch.diagonal)
         walls = segments_of(simplify_all(self.atlas.sketch.strokes, least))
-        keyframes = choose_keyframes(self._window, SCANS)
+        keyframes = choose_keyframes(self._belief.window, SCANS)
         return explain(estimate.place, estimate.sketch_from_base, keyframes, walls, self._model)
 
     def update(self, scan: LaserScan, odometry: Odometry) -> Estimate:
         """Take one scan in, give one estimate out."""
         seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3: the robot's side, knows no drawing
-        first = self._motion is None
-        motion = seen.last_from_base if self._motion is None else self._motion @ seen.last_from_base
-        if first or self.settings.is_keyframe_due(motion):
-            self.add_keyframe(observe(scan, seen.shapes, motion))
-            motion = Pose2.identity()
-        else:
-            assert self._keyframe_estimate is not None
-            self._estimate = replace(self._keyframe_estimate.moved(motion, self.atlas), stamp=scan.stamp)
-        self._motion = motion
+        motion = self._belief.motion @ seen.last_from_base
+        if self._belief.at_keyframe is None or self.settings.is_keyframe_due(motion):
+            return self.add_keyframe(observe(scan, seen.shapes, motion))
+        self._belief = self._belief.moved(motion, scan.stamp, self.atlas)
         return self.estimate
 
     def add_keyframe(self, seen: Observation) -> Estimate:
@@ -190,108 +178,79 @@ class Localizer:
 
         `update` calls it. Who compares one log with many drawings may give them the same observations.
         """
-        settings, is_first = self.settings, not self._window
-        scan, motion = seen.scan, seen.motion
-        self._window = append_keyframe(self._window, seen)
-        particles, log_null = self.tracks.particles, self.tracks.log_null
-        if not is_first:
-            particles = propagate(particles, motion, self.atlas, self._prior, self._rng)
-            distance = math.hypot(motion.x, motion.y)
-            particles, log_null = leave(
-                particles, log_null, settings.tracks.leaving * distance * math.exp(self._log_told)
-            )
-        log_ratio = self._window[-1].novelty * self._model.log_ratio(particles.states, scan)
-        particles, log_null = self._weighed(particles, log_null, log_ratio)
-        share = 0.0 if is_first else self._search_effort()
+        belief, settings = self._belief, self.settings.tracks
+        window = append_keyframe(belief.window, seen)
+        particles, log_null = belief.tracks.particles, belief.tracks.log_null
+        if belief.window:
+            particles = propagate(particles, seen.motion, self.atlas, self._prior, self._rng)
+            leaving = settings.leaving * math.hypot(seen.motion.x, seen.motion.y) * math.exp(belief.log_told)
+            particles, log_null = leave(particles, log_null, leaving)
+        log_ratio = window[-1].novelty * self._model.log_ratio(particles.states, seen.scan)
+        particles, log_null, log_total = normalized(particles.scaled(log_ratio), log_null)
+        belief = belief.with_evidence(window, log_total)
+        share = search_effort(belief)
         if share > 0.0:
-            particles = join([particles, self._births(share)])
-        self.tracks = cluster(particles, log_null, self.atlas, settings.tracks, self._rng)
-        self._keyframe_estimate = self._summary(self._fit(scan), seen.stamp)
-        self._estimate = self._keyframe_estimate
-        return self._estimate
+            particles = join([particles, self._births(belief, share)])
+            belief = replace(belief, searched=window[-1].travel)
+        tracks = cluster(particles, log_null, self.atlas, settings, self._rng)
+        fits = (*belief.fits, *self._fits(tracks, seen.scan))[-FIT_MEMORY:]
+        fit = sum(fits) / len(fits) if tracks.tracks else 0.0
+        estimate = summarize(tracks, fit, seen.stamp, window[-1].travel, self.atlas)
+        belief = replace(belief, tracks=tracks, fits=fits, at_keyframe=estimate)
+        self._belief = replace(belief, motion=Pose2.identity(), estimate=estimate)
+        return estimate
 
     def add_blocked_way(self, way: BlockedWay) -> None:
         """Weigh all tracks by a way that the robot found blocked, in its frame at the last update.
 
-        A way that was found blocked before, over the last metres, is not counted again.
+        A way that was found blocked before, over the last metres, is not counted again. Raises ValueError
+        before the first update.
         """
-        if self._motion is None:
+        belief, last = self._belief, self._belief.at_keyframe
+        if last is None:
             raise ValueError("a blocked way needs a scan before it, got none")
-        last = self._keyframe_estimate
-        assert last is not None
-        window = append_blocked_way(self._window, way.moved(self._motion))
-        if window is self._window:
+        window = append_blocked_way(belief.window, way.moved(belief.motion))
+        if window is belief.window:
             return
-        self._window = window
-        particles = self.tracks.particles
+        particles = belief.tracks.particles
         log_ratio = log_ratio_of_ways(particles.states, window[-1].blocked[-1:], self.atlas)
-        particles, log_null = self._weighed(particles, self.tracks.log_null, log_ratio)
-        self.tracks = cluster(particles, log_null, self.atlas, self.settings.tracks, self._rng)
-        self._keyframe_estimate = self._summary(last.fit, last.stamp)
-        now = self._keyframe_estimate.moved(self._motion, self.atlas)
-        self._estimate = replace(now, stamp=self.estimate.stamp)
+        particles, log_null, log_total = normalized(particles.scaled(log_ratio), belief.tracks.log_null)
+        tracks = cluster(particles, log_null, self.atlas, self.settings.tracks, self._rng)
+        estimate = summarize(tracks, last.fit, last.stamp, window[-1].travel, self.atlas)
+        belief = replace(belief.with_evidence(window, log_total), tracks=tracks, at_keyframe=estimate)
+        self._belief = belief.moved(belief.motion, self.estimate.stamp, self.atlas)
 
-    def _weighed(self, particles: Particles, log_null: float, log_ratio: Array) -> tuple[Particles, float]:
-        """Multiply weights by likelihood ratios (n,) to the null model, normalize, and note the evidence."""
-        weighed = Particles(particles.states, particles.log_weights + log_ratio)
-        weighed, log_null, log_total = normalized(weighed, log_null)
-        self.log_evidence += log_total
-        totals = (*self._log_totals, (self._window[-1].travel, log_total))
-        self._log_totals = tuple(one for one in totals if one[0] >= self._window[0].travel)
-        return weighed, log_null
-
-    def _summary(self, fit: float, stamp: float) -> Estimate:
-        """Sum up what the tracks say at the newest keyframe."""
-        return summarize(self.tracks, fit, stamp, self._window[-1].travel, self.atlas)
-
-    def _search_effort(self) -> float:
-        """Return the share of the proposals that a search tries at this keyframe; 0 for no search.
-
-        All are tried at every keyframe until the place is settled.
-        """
-        assert self._keyframe_estimate is not None
-        if self._keyframe_estimate.probability < SETTLED:
-            return 1.0
-        is_due = self._window[-1].travel - self._searched >= SETTLED_EVERY
-        return SETTLED_PROPOSALS if is_due else 0.0
-
-    def _births(self, share: float) -> Particles:
+    def _births(self, belief: Belief, share: float) -> Particles:
         """Let tracks be born where a search of the whole drawing explains the last metres (3.4).
 
         A birth says that the robot was carried there, or was on no drawn place, when the window began. Its
         mass is the evidence of the window there, over the evidence that all tracks together had since.
         """
-        settings, travel = self.settings, self._window[-1].travel
-        distance = max(travel - self._searched, MIN_CARRIED)
-        self._searched = travel
+        settings = self.settings
+        distance = max(belief.window[-1].travel - belief.searched, MIN_CARRIED)
         count = round(share * settings.proposals)
-        found = global_search(self._window, self._model, self._prior, count, self._rng)
-        since = sum(log_total for _, log_total in self._log_totals[1:])
-        log_prior = math.log(rare(settings.tracks.moving * distance)) + self._log_told
-        return found.resampled(BIRTH_COUNT, self._rng).plus(log_prior - since)
+        found = global_search(belief.window, self._model, self._prior, count, self._rng)
+        since = sum(log_total for _, log_total in belief.log_totals[1:])
+        log_prior = math.log(rare(settings.tracks.moving * distance)) + belief.log_told
+        return found.resampled(BIRTH_COUNT, self._rng).scaled(log_prior - since)
 
-    def _fit(self, scan: SparseScan) -> float:
-        """Average the fit at the leading track over the last keyframes."""
-        if not self.tracks.tracks:
-            return 0.0
-        leading = self.tracks.tracks[0].particles
-        state = leading.states[:, int(leading.log_weights.argmax())]
-        self._fits = (*self._fits, self._model.fit(state, scan))[-FIT_MEMORY:]
-        return sum(self._fits) / len(self._fits)
+    def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:
+        """Measure the fit of a scan at the leading track, if there is one."""
+        if not tracks.tracks:
+            return ()
+        leading = tracks.tracks[0].particles
+        return (self._model.fit(leading.states[:, int(leading.log_weights.argmax())], scan),)
 
-    def _first_tracks(self, start: Sequence[float] | None) -> Tracks:
-        """Draw particles before the first scan."""
-        settings = self.settings.tracks
-        log_null = math.log(settings.first_null) + self._log_told
-        if start is None:
-            states = draw_anywhere(self.atlas, self._prior, settings.first_count, self._rng)
-        else:
-            in_file = Pose2(start[0], start[1], start[2] if len(start) > 2 else 0.0)
-            pose = self.atlas.sketch.file_axes.pose_to_sketch(in_file)
-            heading_std = self._prior.given_heading if len(start) > 2 else math.pi
-            states = draw_near(
-                pose, self.atlas, self._prior, settings.max_count, self._rng, heading_std=heading_std
-            )
-        particles = Particles(states, np.full(states.shape[1], -math.log(states.shape[1])))
-        particles, log_null, _ = normalized(particles.plus(math.log1p(-math.exp(log_null))), log_null)
-        return Tracks((Track(particles),), log_null)
+
+def search_effort(belief: Belief) -> float:
+    """Return the share of the proposals that a search tries at the newest keyframe; 0 for no search.
+
+    There is none at the first keyframe: its particles were drawn just before. Then all are tried at every
+    keyframe until the place is settled.
+    """
+    if belief.at_keyframe is None:
+        return 0.0
+    if belief.at_keyframe.probability < SETTLED:
+        return 1.0
+    is_due = belief.window[-1].travel - belief.searched >= SETTLED_EVERY
+    return SETTLED_PROPOSALS if is_due else 0.0

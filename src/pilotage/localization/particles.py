@@ -51,9 +51,9 @@ class Particles:
         """Keep the particles at these indices, with their weights."""
         return Particles(self.states[:, chosen], self.log_weights[chosen])
 
-    def plus(self, log_factor: float) -> "Particles":
-        """Multiply all weights by a factor, given as its logarithm."""
-        return Particles(self.states, self.log_weights + log_factor)
+    def scaled(self, log_factors: Array | float) -> "Particles":
+        """Multiply all weights by a factor, or each by its own (n,), given as logarithms."""
+        return Particles(self.states, self.log_weights + log_factors)
 
     def picked(self, count: int, offset: float = 0.5) -> Array:
         """Pick states at even steps of the summed shares (systematic resampling), (6, count)."""

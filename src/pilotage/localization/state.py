@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pilotage.errors import PilotageError
+from pilotage.localization.belief import Belief
 from pilotage.maps import SchematicMap
 
 
@@ -16,11 +17,11 @@ class OtherDrawingError(PilotageError):
 
 @dataclass(frozen=True, eq=False)
 class LocalizerState:
-    """The attributes of a localizer and of its scan matcher that change from scan to scan."""
+    """What a localizer believes, and what its scan matcher and its generator go on from."""
 
     drawing: str  # fingerprint of the drawing
-    localizer: Mapping[str, object]
-    scan_matcher: Mapping[str, object]
+    belief: Belief
+    scan_matcher: Mapping[str, object]  # its attributes that change from scan to scan
     generator: Mapping[str, object]  # of the localizer's random numbers
     scale: float | None = None  # [drawing units per metre] that the user gave
 

@@ -99,7 +99,7 @@ class Tracks:
 def normalized(particles: Particles, log_null: float) -> tuple[Particles, float, float]:
     """Scale all masses so that they sum to 1; return the logarithm of what they summed to as well."""
     log_total = float(np.logaddexp(particles.log_mass, log_null))
-    return particles.plus(-log_total), log_null - log_total, log_total
+    return particles.scaled(-log_total), log_null - log_total, log_total
 
 
 def rare(probability: float) -> float:
@@ -111,7 +111,7 @@ def leave(particles: Particles, log_null: float, probability: float) -> tuple[Pa
     """Move a share of the mass from all places to the null track: the robot may leave what is drawn."""
     probability = rare(probability)
     gained = particles.log_mass + math.log(probability)
-    return particles.plus(math.log1p(-probability)), float(np.logaddexp(log_null, gained))
+    return particles.scaled(math.log1p(-probability)), float(np.logaddexp(log_null, gained))
 
 
 def cluster(
