@@ -1,6 +1,7 @@
 """What a session keeps, and what a slow client gets."""
 
 import asyncio
+import multiprocessing
 import tempfile
 import threading
 import time
@@ -15,10 +16,11 @@ from hypothesis import strategies as st
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
-from pilotage.web import workers
+from pilotage.web import sessions, workers
 from pilotage.web.file_routes import while_wanted
 from pilotage.web.history import History
-from pilotage.web.sessions import Client
+from pilotage.web.order import Order, Sent
+from pilotage.web.sessions import MOST_GOING, Client, Sessions
 from pilotage.web.workers import Jobs, Worker, WorkerError
 
 Result = TypeVar("Result")
@@ -147,3 +149,37 @@ def test_a_job_that_is_given_up_while_it_starts_is_ended(monkeypatch: pytest.Mon
     started[0].process.join(20.0)
 
     assert not started[0].process.is_alive()
+
+
+class Standing:
+    """A process that does nothing."""
+
+    def kill(self) -> None:
+        """End it."""
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait for its end."""
+
+
+def test_drives_that_begin_together_are_no_more_than_may_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    ends = []
+
+    def begin_late(*_: object) -> Worker:
+        time.sleep(0.05)
+        here, there = multiprocessing.Pipe()
+        ends.append(there)
+        return Worker(Standing(), here, tempfile.TemporaryDirectory())
+
+    async def work() -> list[object]:
+        table = Sessions()
+        order = Order("a drive", Sent(".svg", b""), Path("world.svg"))
+        begun = await asyncio.gather(*(table.begin(order) for _ in range(12)), return_exceptions=True)
+        for end in ends:
+            end.close()
+        table.close()
+        return begun
+
+    monkeypatch.setattr(sessions, "start", begin_late)
+    begun = finished(work())
+
+    assert 12 - MOST_GOING == sum(isinstance(one, WorkerError) for one in begun)

@@ -225,18 +225,22 @@ class Sessions:
 
     async def begin(self, order: Order) -> Session:
         """Begin a drive; WorkerError if too many go on. A robot that is watched already is gone back to."""
-        if not isinstance(order.world, RobotOrder):
+        async with self._beginning:  # else drives that begin together would not count each other
+            if isinstance(order.world, RobotOrder):
+                return await self._begin_robot(order)
             return await self._begin(order, Session)
+
+    async def _begin_robot(self, order: Order) -> Session:
+        """Go back to the robot if it is watched, else join it anew."""
         from pilotage.web.robot_sessions import RobotSession
 
-        async with self._beginning:
-            for one in self.all():
-                if isinstance(one, RobotSession) and one.clients and not one.over:
-                    one.resume()
-                    return one
-                if isinstance(one, RobotSession):
-                    await asyncio.to_thread(self.forget, one.number)
-            return await self._begin(order, RobotSession)
+        for one in self.all():
+            if isinstance(one, RobotSession) and one.clients and not one.over:
+                one.resume()
+                return one
+            if isinstance(one, RobotSession):
+                await asyncio.to_thread(self.forget, one.number)
+        return await self._begin(order, RobotSession)
 
     async def _begin(self, order: Order, kind: type[Session]) -> Session:
         """Start a worker."""
