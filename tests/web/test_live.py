@@ -345,3 +345,10 @@ def test_what_is_no_recording_is_not_kept(client: TestClient) -> None:
         talk.say("start", content=CONTENT, recording="sent:gone")
         assert "there is no recording" in talk.hear("error")["text"]
     assert "5.log" == kept["title"]
+
+
+def test_a_message_that_is_nested_too_deep_is_answered(client: TestClient) -> None:
+    with client.websocket_connect(LIVE) as websocket:
+        websocket.send_text("[" * 100_000)
+
+        assert "JSON object" in websocket.receive_json()["text"]

@@ -89,7 +89,7 @@ async def receive(websocket: WebSocket) -> Message:
         received = await websocket.receive_text()
         try:
             message = json.loads(received)
-        except ValueError:
+        except (ValueError, RecursionError):
             message = None
         if isinstance(message, dict):
             return message
