@@ -2,6 +2,7 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from pilotage.web.guard import Access
 from web_table import LIVE, TOKEN
 
 
@@ -47,3 +48,13 @@ def test_the_page_may_load_nothing_from_elsewhere(client: TestClient) -> None:
     assert "script-src 'self'" in policy
     assert "http" not in policy
     assert "nosniff" == client.get("/assets/page.js").headers["x-content-type-options"]
+
+
+@pytest.mark.parametrize("header", ["Host", "Origin"])
+def test_a_header_that_is_no_address_is_refused(client: TestClient, header: str) -> None:
+    assert 403 == client.get("/api/drawings", headers={header: "http://[::1"}).status_code
+
+
+def test_the_usual_port_of_http_may_be_left_out_of_the_host() -> None:
+    assert Access(TOKEN, frozenset({"127.0.0.1:80"})).allows_host("127.0.0.1")
+    assert not Access(TOKEN, frozenset({"127.0.0.1:8765"})).allows_host("127.0.0.1")
