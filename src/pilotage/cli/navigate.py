@@ -109,6 +109,9 @@ def navigate(
     written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
     reached in its time is left out, and said.
 
+    A drive that ends without reaching its goal is no error: the exit status is 0, and the *outcome* in the
+    last line of the journal tells.
+
     With a folder it leaves *journal.jsonl*, an object a step, with what the robot believed and did and, apart
     from it, the truth; *drive.png*, the drive on the drawing and in the world; and *drive.gif*, an animation
     of the same.
