@@ -20,9 +20,9 @@ from pilotage.web.show import Show
 from pilotage.web.stage import Stage, set_stage
 
 FRAME_EVERY = 1.0 / 20.0
-"""Time [s] on the clock between frames, at least,"""
+"""Shortest time [s] on the clock between two frames."""
 RECORD_EVERY = 0.5
-"""and time [s] of the drive, at most."""
+"""Longest time [s] of the drive between two frames: a fast drive sends more, for the timeline."""
 LATE = 0.5
 """A drive that is later than this [s] does not try to catch up."""
 STATE_EVERY = 1.0
@@ -237,7 +237,7 @@ class Driver:
                 path.write_text(self._corrected(), encoding="utf-8")
             else:
                 write_export(kind, self._stage.record(), path, self._order.title)
-        except (PilotageError, OSError, MemoryError) as error:
+        except (PilotageError, ValueError, OSError, MemoryError) as error:
             failure = str(error) or "there is not enough memory"
         self._connection.send(("exported", self._show.stamp, {"path": str(path), "failure": failure}))
         self._due = time.monotonic()
