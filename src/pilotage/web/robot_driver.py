@@ -45,7 +45,7 @@ class RobotDriver(Driver):
     def __init__(self, connection: Connection, show: RobotShow, order: Order, *, can_drive: bool) -> None:
         super().__init__(connection, show, order)
         self._robot, self._can_drive = show, can_drive
-        self._page_heard = self._told_trouble = self._trouble_at = 0.0
+        self._page_heard = 0.0  # [s] on the clock
         self._trouble = ""
         self._is_ended = False
 
