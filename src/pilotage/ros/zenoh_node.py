@@ -18,7 +18,7 @@ from pilotage.ros.node import NoTransportError, Quality, full_name
 ROUTER = "tcp/localhost:7447"
 """Where the router of a robot listens; `ZENOH_SESSION_CONFIG_URI` may name a file that says otherwise."""
 PATIENCE_MS = 3000
-"""[ms] in which the router must answer."""
+"""Time [ms] in which the router must answer."""
 NODE_NAME = "pilotage"
 SENT_DEPTH = 10
 """Messages that are kept for sending."""
