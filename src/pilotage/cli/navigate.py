@@ -119,7 +119,7 @@ def navigate(
     **Examples:**
 
     - `pilotage navigate office.svg --world building.yaml --goal kitchen -o run`
-    - `pilotage navigate office.svg --world building.svg --goal 310,120 --start 40,65,90 --from 2.5,3,90`
+    - `pilotage navigate office.svg --world building.svg --goal 440,150 --start 100,180,90 --from 2.1,-5.7,90`
     - Two goals, and back: `pilotage navigate office.svg --world building.svg --goal kitchen,hall --return`
     """
     check_positive(scale, "--scale")
