@@ -1,5 +1,6 @@
 """Who may talk to the server: this machine, the page it served itself, and who knows the token."""
 
+import asyncio
 import hmac
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -72,8 +73,12 @@ class Guard:
             await self.app(scope, receive, send)
             return
 
+        has_begun = False
+
         async def send_with_headers(message: Message) -> None:
+            nonlocal has_begun
             if message["type"] == "http.response.start":
+                has_begun = True
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
@@ -81,7 +86,11 @@ class Guard:
 
         refusal = self.refusal(HTTPConnection(scope))
         if refusal is None:
-            await self.app(scope, receive, send_with_headers)
+            try:
+                await self.app(scope, receive, send_with_headers)
+            except asyncio.CancelledError:  # the server ends before the answer is there
+                if scope["type"] == "http" and not has_begun:
+                    await refused(503, "the drawing table has ended")(scope, receive, send_with_headers)
         elif scope["type"] == "http":
             await refusal(scope, receive, send_with_headers)
         else:
