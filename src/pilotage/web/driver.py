@@ -7,10 +7,11 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from pilotage.drives import Drive
-from pilotage.errors import PilotageError
+from pilotage.errors import FileError, PilotageError
 from pilotage.navigation import Step
 from pilotage.web.bending import Bending
 from pilotage.web.corrected import corrected_svg
+from pilotage.web.drawings import UnreadableError
 from pilotage.web.fate import FATES
 from pilotage.web.marks import changes
 from pilotage.web.order import FARTHEST, SPEEDS, Order, number, place, switch
@@ -43,9 +44,17 @@ def drive_in_worker(connection: Connection, order: Order) -> None:
     try:
         show = set_stage(order)
     except (PilotageError, ValueError) as error:
-        connection.send(("error", 0.0, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
+        send_fatal(connection, 0.0, error)
         return
-    Driver(connection, show, order).run()
+    try:
+        Driver(connection, show, order).run()
+    except FileError as error:  # a recording that breaks off; its file may be one that the server named
+        send_fatal(connection, show.stamp, UnreadableError(error.rule))
+
+
+def send_fatal(connection: Connection, t: float, error: Exception) -> None:
+    """Say why there will be no drive, or why it cannot go on at this time of it [s]."""
+    connection.send(("error", t, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
 
 
 class Driver:

@@ -9,7 +9,7 @@ from multiprocessing.connection import Connection
 from pilotage.errors import PilotageError
 from pilotage.navigation import Outcome
 from pilotage.web.corrected import corrected_svg
-from pilotage.web.driver import STATE_EVERY, Driver
+from pilotage.web.driver import STATE_EVERY, Driver, send_fatal
 from pilotage.web.order import FARTHEST, Order, RobotOrder, number, place
 from pilotage.web.robot_show import RobotShow, show_robot
 
@@ -34,7 +34,7 @@ def drive_robot(connection: Connection, order: Order, robot: RobotOrder) -> None
     try:
         show = show_robot(order, robot)
     except (PilotageError, ValueError) as error:
-        connection.send(("error", 0.0, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
+        send_fatal(connection, 0.0, error)
         return
     RobotDriver(connection, show, order, can_drive=robot.topics.drives).run()
 
