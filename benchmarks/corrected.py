@@ -164,7 +164,7 @@ def render(figures: Figures) -> str:
                 "How far walls that the robot saw are from their true places, in the drawing at its best"
                 " scale and in the drawing as corrected after the log of the building. Defaults were chosen"
                 " with `schematic` of the held-out buildings in view, too. Where believed places contradict"
-                " each other nothing is corrected (aces and freiburg-101, `schematic`)."
+                f" each other nothing is corrected ({left_as_drawn(figures)})."
             ),
             "",
             table(
@@ -180,3 +180,13 @@ def render(figures: Figures) -> str:
             ),
         ]
     )
+
+
+def left_as_drawn(figures: Figures) -> str:
+    """Name the drawings that were not corrected, by hand."""
+    left: dict[str, list[str]] = {}
+    for building in BUILDINGS:
+        for hand, row in figures.get(building, {}).items():
+            if not row["corrected"]:
+                left.setdefault(hand, []).append(building)
+    return "; ".join(f"{' and '.join(names)}, `{hand}`" for hand, names in left.items()) or "none of these"

@@ -49,9 +49,9 @@ LEAST_ROOMS = 5
 COPY = 0.3
 """Severity of the copy by hand."""
 SHORTEST = 4.0
-"""[m] A way that is worth driving."""
+"""Shortest way [m] that is worth driving."""
 TIME_LIMIT = 300.0
-"""[s]"""
+"""Simulated time [s] of a drive."""
 TRIES = 20
 """Worlds that are made until there is a way in one."""
 FORMATS = (".svg", ".dxf", ".pdf", ".jpg", ".png", ".drawio", ".excalidraw")

@@ -13,6 +13,7 @@ import argparse
 import contextlib
 import json
 import math
+import os
 import resource
 import subprocess
 import sys
@@ -192,6 +193,7 @@ def local_cluster() -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 cwd=folder,
+                env={**os.environ, "TMPDIR": folder},  # those that are killed cannot tidy up
             )
             processes.callback(process.wait)
             processes.callback(process.kill)

@@ -21,9 +21,9 @@ LOOPBACK = """<CycloneDDS><Domain Id="any"><General><Interfaces><NetworkInterfac
 <Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>"""
 TWIST_TYPE = "geometry_msgs/msg/Twist"
 OBEYED_FOR = 0.5
-"""[s] A robot stands if it hears no command for so long."""
+"""Time [s] without a command after which a robot stands."""
 PATIENCE = 0.02
-"""[s] The robot waits for a command for so long after its scan was worked on."""
+"""Time [s] that the robot waits for a command after its scan was worked on."""
 
 os.environ["CYCLONEDDS_URI"] = LOOPBACK  # tests stay on this machine
 

@@ -11,10 +11,10 @@ from skimage.measure import label
 from pilotage.maps import CellGraph
 
 LEAST_PIXELS = 100
-"""Smaller regions are not counted."""
+"""Pixels of a region below which it is not counted."""
 
 HALF = 0.5
-"""Of its union with a room a cell must share to be that room."""
+"""Share of its union with a room that a cell must have in common with it to be that room."""
 
 Labels = NDArray[np.int64]
 

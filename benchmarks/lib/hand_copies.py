@@ -22,33 +22,33 @@ from pilotage.geometry import Array, Homography
 from pilotage.maps import Cell, CellGraph
 
 PEOPLE = 1000
-"""So many people may be asked for a copy of a plan with one room."""
+"""People from the first of one seed to the first of the next: more than are ever asked for a copy."""
 SEAM = 0.02
-"""[m] Between rooms that touch, so that each side has an owner."""
+"""Space [m] between rooms that touch, so that each side has an owner."""
 SPACING = 0.1
-"""[m] Between the points of an outline that grow."""
+"""Distance [m] between the points of an outline that grow."""
 OFF = 0.003
-"""[m] Points are moved by about this, as four on a circle would have no one diagram of Voronoi."""
+"""Distance [m] by which points are moved: four on a circle have no one Voronoi diagram."""
 GRID = 0.001
-"""[m] Points that are nearer to each other are one."""
+"""Distance [m] below which points are one."""
 THICKEST, OUTER = 0.8, 0.1
-"""[m] Walls up to this thickness become one line; outer walls are drawn so far outside of the rooms."""
+"""Greatest thickness [m] of a wall that becomes one line; distance [m] of outer walls from rooms."""
 SMOOTH = 0.15
-"""[m] Deviations of a wall that are not drawn."""
+"""Deviations [m] of a wall that are not drawn."""
 FRAME = 0.45
-"""[m] Depth of a doorway to either side of its gateway, at most."""
+"""Greatest depth [m] of a doorway to either side of its gateway."""
 LEAST_STROKE = 0.15
-"""[m] Shorter strokes are not drawn."""
+"""Length [m] below which strokes are not drawn."""
 
 LONG_SIDE, SHORT_SIDE = 2000, 1500
-"""Of the paper, and of the photo [px]."""
+"""Sides of the paper and of the photo [px]."""
 MARGIN = 0.1
-"""Of the paper that stays empty around the drawing."""
+"""Share of the paper that stays empty around the drawing."""
 PEN = 5
 """Width of the pen on paper [px]."""
 PAPER, INK, TABLE = (245, 243, 238), (25, 30, 110), (0.4, 0.28, 0.2)
 INSET = (0.03, 0.1)
-"""Of the photo that lies between its corners and those of the paper."""
+"""Least and greatest share of the photo between its corners and those of the paper."""
 SHADOW, SHADOW_SIZE = 0.35, 0.15
 """How much darker the middle of a shadow is, and how wide it is as a share of the photo."""
 NOISE = 0.02

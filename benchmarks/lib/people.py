@@ -30,7 +30,7 @@ RADIUS, BEAMS = 0.25, 360
 LEGS = 40
 """Ways from place to place that the robot drives in its log."""
 OUTER = 5000.0
-"""[pixels] How far regions reach around the picture."""
+"""Distance [pixels] that regions reach around the picture."""
 
 
 @cache

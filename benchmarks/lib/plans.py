@@ -27,7 +27,7 @@ DISC = 0.25
 """Radius of the disc that stands for a room, as a share of the distance to the nearest other room's point."""
 
 MOST = 0.5
-"""Of a room, or of the disc that stands for it, its cell must hold more than this."""
+"""Share of a room, or of the disc that stands for it, that its cell must hold, and more."""
 
 FLAT = {
     "Kitchen": (0, 0, 350, 320),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pilotage import LocalizerSettings, worlds
-from pilotage.evaluation.episodes import continued, run_episode, spread_episodes, way_along
+from pilotage.evaluation.episodes import continued, follow, score, spread_episodes, way_along
 from pilotage.evaluation.rooms import read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.trajectory import associate
 from pilotage.io import open_log, open_map
@@ -37,7 +37,7 @@ def right_at_end(building, hand, count, length, apart):
         chosen = slice(episode.first, episode.last + 1, apart)
         way = way_along(positions[chosen])
         localizer = Localizer(atlas, QUICK, seed=seed)
-        scores.append(run_episode(localizer, log.readings[chosen], truths[chosen], way, drawn_rooms))
+        scores.append(score(follow(localizer, log.readings[chosen], truths[chosen], way, drawn_rooms)))
 
     return sum(score.right_at_end for score in scores)
 

@@ -168,6 +168,19 @@ def test_a_file_of_the_environment_configures_the_session(monkeypatch, tmp_path,
     node.close()
 
 
+@pytest.mark.parametrize("content", [None, "{ broken"])
+def test_a_file_of_the_environment_that_cannot_be_used_is_named(monkeypatch, tmp_path, content):
+    path = tmp_path / "zenoh.json5"
+    if content is not None:
+        path.write_text(content)
+    monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(path))
+
+    with pytest.raises(NoTransportError, match="must name a configuration of Zenoh") as refused:
+        ZenohNode()
+    assert str(refused.value).endswith(f": {path}")
+    assert "/src/" not in str(refused.value)
+
+
 @pytest.mark.slow
 def test_a_robot_is_driven_to_its_goal(robot, ours):
     settings = replace(Settings(), localizer=reduced(LocalizerSettings(), 1 / 4))

@@ -197,3 +197,21 @@ def test_walls_that_have_a_thickness_keep_it_in_an_upload(client: TestClient) ->
     again = client.post("/api/understand", content=found["svg"], headers=SVG).json()
     assert (2, 1) == (len(drawn["cells"]), len(drawn["gateways"]))
     assert (2, 1) == (len(again["cells"]), len(again["gateways"]))
+
+
+def test_a_folder_that_is_called_like_a_drawing_is_refused_in_a_sentence(
+    client: TestClient, folder: Path
+) -> None:
+    (folder / "floor.svg").mkdir()
+    read = client.get("/api/drawings/floor.svg")
+    written = client.put("/api/drawings/floor.svg", content=FLAT, headers={"If-None-Match": "*"})
+
+    assert [409, 409] == [read.status_code, written.status_code]
+    assert "Is a directory" in read.json()["error"]
+
+
+def test_an_upload_with_a_long_name_gets_one_that_a_disk_can_hold(client: TestClient) -> None:
+    name = client.post(f"/api/uploads?name={'ü' * 300}.svg", content=FLAT).json()["name"]
+
+    assert name.endswith("ü.svg")
+    assert len(name.encode()) < 256

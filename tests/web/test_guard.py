@@ -1,7 +1,11 @@
+import asyncio
+from typing import Any
+
 import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from pilotage.web.guard import Access, Guard
 from web_table import LIVE, TOKEN
 
 
@@ -47,3 +51,47 @@ def test_the_page_may_load_nothing_from_elsewhere(client: TestClient) -> None:
     assert "script-src 'self'" in policy
     assert "http" not in policy
     assert "nosniff" == client.get("/assets/page.js").headers["x-content-type-options"]
+
+
+@pytest.mark.parametrize("header", ["Host", "Origin"])
+def test_a_header_that_is_no_address_is_refused(client: TestClient, header: str) -> None:
+    assert 403 == client.get("/api/drawings", headers={header: "http://[::1"}).status_code
+
+
+def test_the_usual_port_of_http_may_be_left_out_of_the_host() -> None:
+    assert Access(TOKEN, frozenset({"127.0.0.1:80"})).allows_host("127.0.0.1")
+    assert not Access(TOKEN, frozenset({"127.0.0.1:8765"})).allows_host("127.0.0.1")
+
+
+@pytest.mark.parametrize(("begun", "told"), [([], [503]), ([200], [200])])
+def test_a_request_that_the_end_of_the_server_cuts_off_is_no_traceback(
+    begun: list[int], told: list[int]
+) -> None:
+    sent: list[dict[str, Any]] = []
+
+    async def hang(_scope: object, _receive: object, send: Any) -> None:
+        for status in begun:
+            await send({"type": "http.response.start", "status": status, "headers": []})
+        await asyncio.sleep(60.0)
+
+    async def send(message: Any) -> None:
+        sent.append(message)
+
+    async def ask() -> None:
+        headers = [(b"host", b"here:80"), (b"authorization", f"Bearer {TOKEN}".encode())]
+        scope = {
+            "type": "http",
+            "method": "GET",
+            "path": "/api/info",
+            "query_string": b"",
+            "headers": headers,
+        }
+        guard = Guard(hang, Access(TOKEN, frozenset({"here:80"})))
+        request = asyncio.ensure_future(guard(scope, lambda: asyncio.sleep(60.0), send))
+        await asyncio.sleep(0.01)
+        request.cancel()
+        await request
+
+    asyncio.run(ask())
+
+    assert told == [one["status"] for one in sent if "status" in one]

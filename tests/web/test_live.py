@@ -162,7 +162,9 @@ def test_what_cannot_be_started_is_one_sentence(
         talk = Talk(websocket)
 
         assert "JSON object" in talk.hear("error")["text"]
-        assert words in talk.hear("error")["text"]
+        refused = talk.hear("error")
+        assert words in refused["text"]
+        assert refused["fatal"]  # else a page would try to resume for ever
 
 
 @pytest.mark.parametrize(
@@ -345,3 +347,10 @@ def test_what_is_no_recording_is_not_kept(client: TestClient) -> None:
         talk.say("start", content=CONTENT, recording="sent:gone")
         assert "there is no recording" in talk.hear("error")["text"]
     assert "5.log" == kept["title"]
+
+
+def test_a_message_that_is_nested_too_deep_is_answered(client: TestClient) -> None:
+    with client.websocket_connect(LIVE) as websocket:
+        websocket.send_text("[" * 100_000)
+
+        assert "JSON object" in websocket.receive_json()["text"]

@@ -41,6 +41,11 @@ def test_a_server_that_others_can_reach_needs_a_token(folder: Path) -> None:
         serve(folder, Address("0.0.0.0", 0, "short"), browse=False, say=print)  # noqa: S104
 
 
+def test_the_name_of_this_machine_is_no_server_for_others(folder: Path) -> None:
+    with pytest.raises(ServerError, match="no port from 70000 on can be opened on localhost"):
+        serve(folder, Address("localhost", 70000), browse=False, say=print)
+
+
 def test_a_folder_must_exist(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="must exist"):
         serve(tmp_path / "none", Address(), browse=False, say=print)

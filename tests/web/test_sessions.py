@@ -1,8 +1,13 @@
 """What a session keeps, and what a slow client gets."""
 
 import asyncio
+import multiprocessing
+import tempfile
+import threading
+import time
 from collections.abc import Coroutine
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
@@ -11,10 +16,12 @@ from hypothesis import strategies as st
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
+from pilotage.web import sessions, workers
 from pilotage.web.file_routes import while_wanted
 from pilotage.web.history import History
-from pilotage.web.sessions import Client
-from pilotage.web.workers import Jobs, WorkerError
+from pilotage.web.order import Order, Sent
+from pilotage.web.sessions import MOST_GOING, Client, Sessions
+from pilotage.web.workers import Jobs, Worker, WorkerError
 
 Result = TypeVar("Result")
 
@@ -77,7 +84,6 @@ def test_an_empty_history_has_nothing_to_show() -> None:
 
 def test_a_job_that_dies_or_hangs_takes_nothing_else_with_it() -> None:
     import os
-    import time
 
     async def work() -> int:
         jobs = Jobs()
@@ -111,3 +117,69 @@ def test_a_job_whose_page_has_gone_on_is_ended() -> None:
     finished(ask())
 
     assert ["job"] == ended
+
+
+def test_what_a_job_leaves_in_its_folder_for_temporary_files_goes_with_it() -> None:
+    async def work() -> str:
+        return await Jobs().run(tempfile.mkdtemp, within=60.0)
+
+    assert not Path(finished(work())).exists()
+
+
+def test_a_job_that_is_given_up_while_it_starts_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[Worker] = []
+    begin, has_begun = workers.start, threading.Event()
+
+    def begin_late(*arguments: Any) -> Worker:
+        time.sleep(0.2)
+        started.append(begin(*arguments))
+        has_begun.set()
+        return started[0]
+
+    async def work() -> None:
+        job = asyncio.ensure_future(Jobs().run(time.sleep, 60.0, within=60.0))
+        await asyncio.sleep(0.05)
+        job.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await job
+        assert await asyncio.to_thread(has_begun.wait, 20.0)
+
+    monkeypatch.setattr(workers, "start", begin_late)
+    finished(work())
+    started[0].process.join(20.0)
+
+    assert not started[0].process.is_alive()
+
+
+class Standing:
+    """A process that does nothing."""
+
+    def kill(self) -> None:
+        """End it."""
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait for its end."""
+
+
+def test_drives_that_begin_together_are_no_more_than_may_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    ends = []
+
+    def begin_late(*_: object) -> Worker:
+        time.sleep(0.05)
+        here, there = multiprocessing.Pipe()
+        ends.append(there)
+        return Worker(Standing(), here, tempfile.TemporaryDirectory())
+
+    async def work() -> list[object]:
+        table = Sessions()
+        order = Order("a drive", Sent(".svg", b""), Path("world.svg"))
+        begun = await asyncio.gather(*(table.begin(order) for _ in range(12)), return_exceptions=True)
+        for end in ends:
+            end.close()
+        table.close()
+        return begun
+
+    monkeypatch.setattr(sessions, "start", begin_late)
+    begun = finished(work())
+
+    assert 12 - MOST_GOING == sum(isinstance(one, WorkerError) for one in begun)

@@ -44,7 +44,7 @@ def cells(
     **Examples:**
 
     - `pilotage cells office.svg --figure cells.png`
-    - `pilotage cells office.svg --start 120,80 --goal kitchen --figure route.png -o cells.geojson`
+    - `pilotage cells office.svg --start 100,180 --goal kitchen --figure route.png -o cells.geojson`
     - `pilotage cells scan.png --shading light-is-free`
     """
     check_outputs([output], figure=figure, force=force)

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 OF_A_KIND = 3
-"""So many findings of a kind are listed; --json lists all."""
+"""Findings of a kind that are listed; --json lists all."""
 
 MOST_NAMES = 8
-"""So many names of walls are listed, those with most marks; a name of one mark, or of all, is no layer."""
+"""Names of walls that are listed, those with most marks; a name of one mark, or of all, is no layer."""
 
 
 def check(

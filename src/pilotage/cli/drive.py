@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 JOURNAL, FIGURE, ANIMATION = "journal.jsonl", "drive.png", "drive.gif"
 """What a drive leaves in its folder."""
 EVERY = 5.0
-"""Without a terminal, a line is written every so many seconds of the simulation."""
+"""Simulated time [s] between two lines of progress where there is no terminal."""
 
 
 def drive_and_record(

@@ -79,7 +79,7 @@ def localize(
     **Examples:**
 
     - `pilotage localize office.svg run.log.gz -o out.jsonl --figure where.png`
-    - `pilotage localize office.svg run.log.gz --from 100 --start 120,80,90`
+    - `pilotage localize office.svg run.log.gz --from 100 --start 450,240,40`
     - `pilotage localize office.svg run.log.gz --to 500 --explain --figure why.png`
     - `pilotage localize office.svg run.log.gz -o out.jsonl --corrected metres.svg`
     """

@@ -109,6 +109,9 @@ def navigate(
     written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
     reached in its time is left out, and said.
 
+    A drive that ends without reaching its goal is no error: the exit status is 0, and the *outcome* in the
+    last line of the journal tells.
+
     With a folder it leaves *journal.jsonl*, an object a step, with what the robot believed and did and, apart
     from it, the truth; *drive.png*, the drive on the drawing and in the world; and *drive.gif*, an animation
     of the same.
@@ -116,7 +119,7 @@ def navigate(
     **Examples:**
 
     - `pilotage navigate office.svg --world building.yaml --goal kitchen -o run`
-    - `pilotage navigate office.svg --world building.svg --goal 310,120 --start 40,65,90 --from 2.5,3,90`
+    - `pilotage navigate office.svg --world building.svg --goal 440,150 --start 100,180,90 --from 2.1,-5.7,90`
     - Two goals, and back: `pilotage navigate office.svg --world building.svg --goal kitchen,hall --return`
     """
     check_positive(scale, "--scale")

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from pilotage.ros.session import Session
 
 REPORT_EVERY = 5.0
-"""[s] between two lines on how it goes."""
+"""Time [s] between two lines on how it goes."""
 
 
 def ros2(

@@ -8,6 +8,7 @@ import typer
 
 from pilotage.cli.options import FootprintSize, SettingsFile
 from pilotage.cli.robot import (
+    PARAMETERS,
     Braking,
     Carrier,
     CommandTopic,
@@ -35,11 +36,19 @@ if TYPE_CHECKING:
 
 NEEDED = ("starlette", "uvicorn", "websockets")
 """What the extra `web` installs."""
+OF_THE_ROBOT = {
+    "drive": "--drive",
+    "robot_file": "--robot",
+    "settings": "--settings",
+    **{argument: f"--{name}" for name, (argument, _) in PARAMETERS.items()},
+}
+"""Options that mean nothing without a robot on the network, by their arguments."""
 CARRIERS = {Transport.DDS: ("cyclonedds", "ros2"), Transport.ZENOH: ("zenoh", "zenoh")}
 """What carries the topics of a robot, and the extra that installs it."""
 
 
 def table(
+    context: typer.Context,
     folder: Annotated[Path, typer.Argument(help="Folder of drawings.")] = Path(),
     *,
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; the next free one is taken.")] = 8765,
@@ -97,11 +106,11 @@ def table(
         raise PilotageError(
             f"the drawing table needs {', '.join(missing)}: `pip install 'pilotage[web]'` installs it"
         )
+    if not ros2:
+        check_unused(context)
     limits, length = limits_of(footprint, radius, speed, turn_rate, braking)
     check_limits(limits, drive=drive)
     check_names(namespace, scan_topic, odometry_topic, command_topic)
-    if drive and not ros2:
-        raise typer.BadParameter("it needs --ros2", param_hint="--drive")
     from pilotage.web.serve import Address, serve
 
     robot = None
@@ -110,6 +119,14 @@ def table(
         link = Link(domain, namespace, transport)
         robot = robot_order(link, topics, settings, limits, length)
     serve(folder, Address(host, port, token), browse=browser, say=say, robot=robot)
+
+
+def check_unused(context: typer.Context) -> None:
+    """Reject options that say something of a robot on the network where there is none."""
+    for argument, option in OF_THE_ROBOT.items():
+        source = context.get_parameter_source(argument)
+        if source is not None and source.name == "COMMANDLINE":
+            raise typer.BadParameter("it needs --ros2", param_hint=option)
 
 
 def robot_order(

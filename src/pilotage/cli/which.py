@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pilotage.workers import Cluster, Processes
 
 TRAVEL = 40.0
-"""[m] of a log that are looked at, unless it is told otherwise."""
+"""Metres of a log that are looked at by default."""
 
 
 def which(
@@ -75,7 +75,7 @@ def which(
                 show(board, log)
                 told.add(log)
         except KeyboardInterrupt as interrupt:
-            for log in board.scores.keys() - told:
+            for log in (log for log in board.scores if log not in told):
                 show(board, log)
                 done, count = len(board.scores[log]), len(drawings) * (2 if mirrored else 1)
                 interrupt.add_note(f"{log.name} was compared with {done} of {count} drawings")

@@ -9,9 +9,9 @@ from pilotage.drives import Drive
 from pilotage.navigation import Outcome
 
 NEAR_GOAL = 1.5
-"""How far from the marked point the robot may stop [m]: a drawing tells no better."""
+"""Distance [m] from the marked point within which the robot may stop: a drawing tells no better."""
 NEAR_GOAL_SHARE = 0.1
-"""The same, as a share of the room's size."""
+"""Distance from the marked point within which it may stop, as a share of the room's longer side."""
 
 Point = tuple[float, float]
 

@@ -144,13 +144,6 @@ def follow(
     return trace_of(claims, readings, truths, way, drawn_rooms, scan_ms=scan_ms)
 
 
-def run_episode(
-    localizer: Locating, readings: Sequence[Reading], truths: Sequence[str], way: Array, drawn_rooms: Rooms
-) -> EpisodeScore:
-    """Follow an episode and score it."""
-    return score(follow(localizer, readings, truths, way, drawn_rooms))
-
-
 def trace_of(
     claims: Sequence[Claim],
     readings: Sequence[Reading],

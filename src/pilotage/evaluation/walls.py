@@ -11,9 +11,9 @@ from pilotage.geometry import Array, fit_similarity
 from pilotage.maps import SchematicMap
 
 STEP = 0.25
-"""[m] between points along walls."""
+"""Distance [m] between points along walls."""
 SEEN = 0.5
-"""[m] A wall was seen where its true place is no farther from what the laser hit."""
+"""A wall was seen where its true place is within this distance [m] of what the laser hit."""
 
 
 @dataclass(frozen=True, eq=False)

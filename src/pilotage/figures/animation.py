@@ -27,7 +27,7 @@ MOST_FRAMES = 200
 LEAST_STEP = 0.5  # [s] of the simulation from frame to frame
 FRAME_TIME, LAST_FRAME_TIME = 100, 3000  # [ms] a frame is shown
 FREQUENT, RARE = 48, 80
-"""Colors of the palette: so many of the most frequent as they are, so many for all others."""
+"""Colors of the palette that are the most frequent ones, and those that all others share."""
 
 
 def animate(drive: Drive, path: Path | str) -> None:

@@ -39,7 +39,7 @@ ROLE_COLOR = {
 """Marks of other roles are seen in the walls, the names and the cells."""
 
 LISTED, OF_A_KIND = 12, 3
-"""So many findings are listed below the picture, and so many of a kind."""
+"""Findings that are listed below the picture, and those of a kind."""
 
 BESIDE_NAME = 18.0
 """How far above the middle of a room its finding stands [points]: the name stays readable."""

@@ -11,11 +11,11 @@ from pilotage.geometry import Array
 from pilotage.maps import SchematicMap
 
 HEIGHT, WIDEST = 4.6, 6.4
-"""[inches] of each of the two pictures."""
+"""Greatest height and width [inches] of each of the two pictures."""
 NARROWEST = 7.5
-"""[inches] of the page, for title and legend."""
+"""Least width [inches] of the page, for title and legend."""
 BAR = 5.0
-"""[m] of the scale bar."""
+"""Length [m] of the scale bar."""
 
 
 def corrected_figure(

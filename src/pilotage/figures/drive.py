@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
-from pilotage.figures.trail import COLORS, LOCATED_WIDTH, LOST_WIDTH, STILL, draw_stretches, find_stretches
+from pilotage.figures.trail import (
+    COLORS,
+    JUMP,
+    LOCATED_WIDTH,
+    LOST_WIDTH,
+    STILL,
+    draw_stretches,
+    find_stretches,
+)
 from pilotage.figures.words import clock
 from pilotage.figures.world import draw_segments, draw_world
 from pilotage.geometry import Array
@@ -21,8 +29,6 @@ from pilotage.maps import CellGraph
 from pilotage.navigation import Step
 from pilotage.simulation import Scene
 
-JUMP = 0.04
-"""A step longer than this share of the drawing's diagonal is a jump of the estimate, not a motion."""
 PANEL_WIDTH, TALLEST = 6.4, 8.0  # [inches]
 FOOT = 0.8  # [inches] for the legend
 CLOCK = (10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 3600.0)  # [s] between marks of time

@@ -11,12 +11,10 @@ from matplotlib.figure import Figure
 
 from pilotage.figures import style
 from pilotage.figures.drawing import draw_labels, draw_strokes
+from pilotage.figures.trail import JUMP
 from pilotage.geometry import Array, Polyline
 from pilotage.localization import Estimate, Explanation, Status, Verdict
 from pilotage.maps import SchematicMap
-
-JUMP = 0.04
-"""A step longer than this share of the drawing's diagonal is a change of mind, not a motion."""
 
 PAGE_WIDTH, PAGE_TALLEST, SIDE_WIDTH = 9.6, 9.0, 2.9  # [inches]
 

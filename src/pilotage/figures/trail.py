@@ -26,6 +26,8 @@ COLORS = {
 LOCATED_WIDTH, LOST_WIDTH = 3.2, 1.1  # [points]
 STILL = 0.002
 """A stretch shorter than this share of the picture is a turn on the spot, and drawn as a dot."""
+JUMP = 0.04
+"""A step longer than this share of the drawing's diagonal is a jump of the estimate, not a motion."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,7 @@ from matplotlib.path import Path
 from pilotage.drives import Drive
 from pilotage.figures import style
 from pilotage.figures.cells import outline_of
-from pilotage.figures.drive import JUMP
-from pilotage.figures.trail import Stretch, find_stretches
+from pilotage.figures.trail import JUMP, Stretch, find_stretches
 from pilotage.geometry import Array
 from pilotage.localization import Status
 from pilotage.maps import Roadmap, RouteError, RouteSettings

@@ -99,8 +99,7 @@ def rank(
     """Compare drawings with the first metres of logs; yield each log when its ranking is on the board.
 
     With `mirrored` each drawing is also looked at in a mirror. The ranking is the same whatever the number of
-    workers. Files that cannot be used are left out, which is
-    said, as is the progress.
+    workers. Files that cannot be used are left out; `say` is told so, and how far it is.
     """
     candidates = [(drawing, one) for drawing in drawings for one in ((False, True) if mirrored else (False,))]
     for first in range(0, len(logs), LOGS_AT_ONCE):

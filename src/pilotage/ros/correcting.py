@@ -16,11 +16,11 @@ from pilotage.maps import Atlas
 from pilotage.ros.session import Session
 
 EVERY = 30.0
-"""[s] A map is published no more often,"""
+"""Shortest time [s] between two corrected maps."""
 SIGHTINGS = 20
-"""and not before so many more sightings, 10 m of travel."""
+"""New sightings until the map is corrected again: 10 m of travel."""
 MOVED = 0.05
-"""[m] by which something must have moved on it."""
+"""Distance [m] by which a wall must have moved for the map to be said again."""
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 
 

@@ -29,11 +29,11 @@ from pilotage.ros.watchdog import NO_SCAN, Watchdog
 TF_TYPE, POSE_TYPE, PATH_TYPE = TYPES["/tf"], TYPES["/pilotage/pose"], TYPES["/pilotage/path"]
 STRING_TYPE = "std_msgs/msg/String"
 NUMBER = re.compile(r"[+-]?\d+(\.\d+)?")
-"""What may differ between two tellings of one reason to stand."""
+"""Numbers in a reason to stand: one that differs in them alone is not said again."""
 STANDING_EVERY = 0.1
-"""[s] between two commands to stand while something is wrong."""
+"""Time [s] between two commands to stand while something is wrong."""
 ROUTE_EVERY = 0.5
-"""[s] between two messages of the route."""
+"""Time [s] between two messages of the route."""
 
 
 class Wire(Protocol):

@@ -15,7 +15,7 @@ from pilotage.io.bags.stamps import CLOCK_JUMP, interpolated, pose_of
 from pilotage.perception import Odometry, Reading
 
 STALE = 0.3
-"""[s] Odometry that is older than a scan by this does not tell where the scan was made."""
+"""Age [s] at which odometry no longer tells where a scan was made."""
 
 REMEMBERED = 200
 """Readings of odometry that are kept, to find that of a scan's moment."""

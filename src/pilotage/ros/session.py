@@ -20,16 +20,16 @@ from pilotage.navigation.steering import STILL
 from pilotage.perception import LaserScan, Odometry, Reading
 
 SETTLED = 0.9
-"""Probability of a place from which on the scale there becomes that of the frame `map`."""
+"""Probability of a place at which the scale there becomes that of the frame `map`, for good."""
 
 OTHER_SCALE = 0.02
-"""Share by which a scale must differ for the frame `map` to be changed."""
+"""Logarithm of the ratio by which a scale must differ for the frame `map` to be changed: 2 %."""
 
 MOST_SIGHTINGS, LATEST = 2000, 500
 """Sightings that are kept, a kilometre; if there are more, every second of all but the latest is dropped."""
 
 AGREEING = 1.5
-"""[m] within which the localizer and the path of the correction tell the same place."""
+"""Distance [m] within which the localizer and the path of the correction tell the same place."""
 
 Goal = str | tuple[float, float] | Tour
 

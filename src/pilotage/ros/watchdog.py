@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 NO_SCAN = 0.3
-"""[s] A robot that has not heard a scan for so long stands."""
+"""Time [s] without a scan after which a robot stands."""
 
 CLOCK_JUMP = 1.0
-"""[s] Stamps of scans that differ from the time in between by more than this are a clock that jumped."""
+"""A clock has jumped if the stamps of two scans differ from the time between them by more than this [s]."""
 
 
 @dataclass

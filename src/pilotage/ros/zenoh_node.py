@@ -16,9 +16,11 @@ from pilotage.io.bags.outgoing import typestore
 from pilotage.ros.node import NoTransportError, Quality, full_name
 
 ROUTER = "tcp/localhost:7447"
-"""Where the router of a robot listens; `ZENOH_SESSION_CONFIG_URI` may name a file that says otherwise."""
+"""Where the router of a robot listens, ..."""
+CHOSEN = "ZENOH_SESSION_CONFIG_URI"
+"""... unless this environment variable names a file that says otherwise."""
 PATIENCE_MS = 3000
-"""[ms] in which the router must answer."""
+"""Time [ms] in which the router must answer."""
 NODE_NAME = "pilotage"
 SENT_DEPTH = 10
 """Messages that are kept for sending."""
@@ -80,7 +82,7 @@ class ZenohNode:
             self._session: Any = zenoh.open(chosen_config() if config is None else config)
         except zenoh.ZError as error:
             raise NoTransportError(
-                f"no router of Zenoh answers ({' '.join(str(error).split())}); "
+                f"no router of Zenoh answers ({reason_in(error)}); "
                 f"`ros2 run rmw_zenoh_cpp rmw_zenohd` starts one at {ROUTER}"
             ) from error
         self._domain, self._namespace = domain, namespace.strip("/")
@@ -151,12 +153,25 @@ class ZenohNode:
 
 
 def chosen_config() -> Any:  # noqa: ANN401  # of zenoh
-    """Read the file that the environment names, as rmw_zenoh does, else look for the router here."""
+    """Read the file that the environment names, as rmw_zenoh does, else look for the router here.
+
+    Raises NoTransportError if the file cannot be used.
+    """
     import zenoh
 
-    if path := os.environ.get("ZENOH_SESSION_CONFIG_URI"):
+    path = os.environ.get(CHOSEN)
+    if not path:
+        return peer_config(connect=ROUTER)
+    try:
         return zenoh.Config.from_file(path)
-    return peer_config(connect=ROUTER)
+    except zenoh.ZError as error:
+        rule = f"{CHOSEN} must name a configuration of Zenoh ({reason_in(error)})"
+        raise NoTransportError(f"{rule}: {path}") from error
+
+
+def reason_in(error: Exception) -> str:
+    """Return what Zenoh says of an error in one line, without the line of its own source."""
+    return " ".join(str(error).split()).partition(" at /")[0]
 
 
 def peer_config(*, listen: str = "tcp/localhost:0", connect: str | None = None) -> Any:  # noqa: ANN401

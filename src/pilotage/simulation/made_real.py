@@ -24,11 +24,11 @@ Point = tuple[float, float]
 NARROWEST = 0.9
 """Width [m] to which the narrowest drawn passage is widened, with all the building."""
 MOST_WIDENING = 2.0
-"""By no larger factor than this."""
+"""Largest factor of that widening."""
 DOOR = 1.0
-"""Width [m] of a usual door: narrow passages tell how large a building is meant to be,"""
+"""Width [m] of a usual door: narrow passages tell how large a building is meant to be."""
 TRUST_IN_DOORS = math.log(1.6)
-"""up to this from what its size and its clearance say [log]: the robot guesses by those."""
+"""Largest logarithm of the ratio of the scale by doors to that by size and clearance, the robot's guess."""
 WIDEST_DOOR = 2.5
 """A gateway wider than this [m] has no leaf."""
 ROBOT = 0.35
@@ -38,14 +38,25 @@ BEFORE_DOOR = 1.0
 AREA_A_PIECE = 5.0
 """Area of a room [m²] that gets one piece of furniture at severity 1."""
 DEPTH, LENGTH = (0.35, 0.8), (0.5, 1.8)
-"""Of a piece of furniture [m]: between these."""
+"""Least and greatest depth and length [m] of a piece of furniture."""
+AT_WALL, OFF_WALL = 0.7, (1.0, 3.0)
+"""Share of furniture with its back to a wall, and how far [m] the rest stands off: room to walk behind it."""
+ROUNDING = 0.02
+"""Distance [m] by which furniture may reach over the outline of its room: it touches the wall."""
 LEAST_LEFT = 0.55
-"""Share of the space of a room in which a robot can be that furniture leaves free."""
+"""Furniture leaves free at least this share of the space in which a robot can be."""
 AREA_A_PERSON = 90.0
 """Area [m²] with one person at severity 1."""
-MOST_PEOPLE = 6
+MOST_PEOPLE, LEAST_WALK, WALKING_SPEEDS = 6, 2.0, (0.5, 1.1)
+"""People in a building, at most; the shortest path of one [m]; the least and greatest speed [m/s]."""
 CLOSES = 0.25
-"""Probability that a door closes for a while during the first minutes, at severity 1."""
+"""Probability that a door closes for a while, at severity 1."""
+CLOSES_AFTER, CLOSED_FOR = (20.0, 200.0), (20.0, 60.0)
+"""Least and greatest time [s] until such a door closes, and for which it is then closed."""
+START_ROOM = 0.1
+"""Free space [m] beside the robot where it starts."""
+START_TRIES = 100
+"""Places tried for its start."""
 TRIES = 12
 """Places tried for each piece of furniture and person."""
 
@@ -141,7 +152,7 @@ def furnish(
             is_clear = piece.distance(doors) > BEFORE_DOOR if openings else True
             is_clear = is_clear and (not kept_free or piece.distance(places) > BEFORE_DOOR)
             is_whole = left.geom_type == "Polygon" and left.area >= least
-            if is_clear and is_whole and room.buffer(0.02).covers(piece):
+            if is_clear and is_whole and room.buffer(ROUNDING).covers(piece):
                 pieces.append(piece)
                 space = left
                 break
@@ -157,7 +168,7 @@ def place_piece(room: shapely.Polygon, rng: np.random.Generator) -> shapely.Poly
     along = sides[k] / max(lengths[k], 1e-9)
     inward = np.array([-along[1], along[0]])  # outlines run counter-clockwise
     depth, length = rng.uniform(*DEPTH), rng.uniform(*LENGTH)
-    off_wall = 0.0 if rng.random() < 0.7 else rng.uniform(1.0, 3.0)
+    off_wall = 0.0 if rng.random() < AT_WALL else rng.uniform(*OFF_WALL)
     foot = ring[k] + rng.random() * sides[k] + off_wall * inward
     half = 0.5 * length * along
     return shapely.Polygon(
@@ -175,11 +186,8 @@ def hang_doors(openings: Sequence[Array], severity: float, rng: np.random.Genera
     """Give narrow passages a door; some close for a while."""
     doors = []
     for opening in openings:
-        closes, since, lasts = (
-            rng.random() < CLOSES * severity,
-            rng.uniform(20.0, 200.0),
-            rng.uniform(20.0, 60.0),
-        )
+        closes = rng.random() < CLOSES * severity
+        since, lasts = rng.uniform(*CLOSES_AFTER), rng.uniform(*CLOSED_FOR)
         if width_of(opening) <= WIDEST_DOOR:
             doors.append(Door(opening.ravel(), ((since, since + lasts),) if closes else ()))
     return doors
@@ -199,8 +207,9 @@ def invite(
         for _ in range(TRIES):
             room = rooms[int(rng.choice(len(rooms), p=areas / areas.sum()))]
             path = shapely.LineString(random_points(room, 2, rng))
-            if path.length > 2.0 and room.buffer(-ROBOT).covers(path) and path.distance(in_the_way) > ROBOT:
-                people.append(Person(Polyline(shapely.get_coordinates(path)), rng.uniform(0.5, 1.1)))
+            is_clear = room.buffer(-ROBOT).covers(path) and path.distance(in_the_way) > ROBOT
+            if path.length > LEAST_WALK and is_clear:
+                people.append(Person(Polyline(shapely.get_coordinates(path)), rng.uniform(*WALKING_SPEEDS)))
                 break
     return people
 
@@ -215,7 +224,7 @@ def candidates(
     goal_id = graph.cell_at(goal) if goal else ""
     part = next((part for part in parts if goal_id in part), parts[0])
     ids = sorted(part - {goal_id}) or sorted(part)
-    chosen = rng.choice(len(ids), size=100)
+    chosen = rng.choice(len(ids), size=START_TRIES)
     return np.vstack([random_points(rooms[graph.index_from_id[ids[k]]], 1, rng) for k in chosen])
 
 
@@ -228,7 +237,7 @@ def stand(
 ) -> Pose2:
     """Stand at the first of these places that is free; StartError if none is."""
     for x, y in places:
-        if world.is_free([(x, y)], radius + 0.1)[0]:
+        if world.is_free([(x, y)], radius + START_ROOM)[0]:
             return Pose2(float(x), float(y), rng.uniform(-math.pi, math.pi) if heading is None else heading)
     raise StartError("a robot must have room where it starts, found a wall or furniture")
 

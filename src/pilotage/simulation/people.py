@@ -11,13 +11,13 @@ COURTESY = 0.6
 """A person stops this far from a robot that is in the way [m]."""
 
 WALKING_SPEED = 1.0
-"""Of a person who is not in a hurry [m/s]."""
+"""Speed [m/s] of a person who is not in a hurry."""
 
 PATIENCE = (2.0, 5.0)
-"""How long a person waits until the way is free, and then turns round [s]: between these."""
+"""Shortest and longest time [s] that a person waits for a free way before turning round."""
 
 PAUSE = (1.0, 4.0)
-"""How long a person stays at an end of the path [s]: between these."""
+"""Shortest and longest time [s] that a person stays at an end of the path."""
 
 
 @dataclass(frozen=True, slots=True)

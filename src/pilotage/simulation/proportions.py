@@ -9,13 +9,15 @@ import numpy as np
 from pilotage.geometry import Array, Pose2, frozen_array
 
 PARTS = 6
-"""Stretches of an axis that each get a scale of their own."""
+"""Parts of an axis, each with a scale of its own."""
 BEYOND = 0.5
 """The outermost scales hold this far beyond the drawing, as a share of its size."""
 SPREAD = 0.45
 """Standard deviation of the logarithm of a part's scale at severity 1."""
 ASPECT = 0.25
-"""The same of the whole axis."""
+"""Standard deviation of the logarithm of the scale of a whole axis at severity 1."""
+MOST_LOG = 1.0
+"""Largest logarithm of a part's scale: a room is drawn up to 2.7 times too long or too short."""
 NEAR = 1e-3
 """Distance [m] over which a heading is carried."""
 
@@ -50,7 +52,7 @@ class Proportions:
             size = max(high - low, 1e-9)
             knots = np.array([low - BEYOND * size, *np.linspace(low, high, PARTS + 1), high + BEYOND * size])
             logs = severity * (SPREAD * rng.normal(size=PARTS + 2) + ASPECT * rng.normal())
-            steps = np.diff(knots) * np.exp(np.clip(logs, -1.0, 1.0)) * metres_per_unit
+            steps = np.diff(knots) * np.exp(np.clip(logs, -MOST_LOG, MOST_LOG)) * metres_per_unit
             rows.append((knots, np.concatenate([[0.0], np.cumsum(steps)])))
         return cls(np.array([row[0] for row in rows]), np.array([row[1] for row in rows]))
 

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from pilotage.kernels.segment_grid import SegmentGrid
 
 STEP = 0.05
-"""Between the points of the grid over which ways are sought [m]."""
+"""Spacing [m] of the grid over which ways are sought."""
 
 MOST_POINTS = 4_000_000
-"""Of that grid; in a building of more than 100 m by 100 m they lie farther apart."""
+"""Points of that grid, at most; it is coarser in a building of more than 100 m by 100 m."""
 
 NEAR = 4
-"""From start and goal the robot goes straight to points of the grid within so many steps."""
+"""Steps of the grid within which the robot goes straight between its points and start or goal."""
 
 
 @dataclass(frozen=True, eq=False)

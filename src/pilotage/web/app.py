@@ -109,9 +109,18 @@ def refuse_missing(_request: Request, _error: Exception) -> Response:
     return JSONResponse({"error": "there is no such file"}, 404)
 
 
+def refuse_file(_request: Request, error: Exception) -> Response:
+    """Answer that what has the name of a drawing is a folder, or may not be touched."""
+    assert isinstance(error, OSError)
+    return JSONResponse({"error": f"this cannot be read or written ({error.strerror})"}, 409)
+
+
 HANDLERS = {
     HTTPException: refuse_http,
     FileNotFoundError: refuse_missing,
+    IsADirectoryError: refuse_file,
+    NotADirectoryError: refuse_file,
+    PermissionError: refuse_file,
     NameRefusedError: refuse(400),
     RefusedError: refuse(422),
     PilotageError: refuse(422),

@@ -28,8 +28,6 @@ STROKE = 1.0 / 400.0
 """Width of the strokes of a drawing that was made of an upload, as a share of its diagonal."""
 LETTERS = 6.0
 """Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
-
-
 ZONES = tuple(role.value for role in ZONE_ROLES)
 """Names of the kinds of zones, in their order."""
 

@@ -7,10 +7,11 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from pilotage.drives import Drive
-from pilotage.errors import PilotageError
+from pilotage.errors import FileError, PilotageError
 from pilotage.navigation import Step
 from pilotage.web.bending import Bending
 from pilotage.web.corrected import corrected_svg
+from pilotage.web.drawings import UnreadableError
 from pilotage.web.fate import FATES
 from pilotage.web.marks import changes
 from pilotage.web.order import FARTHEST, SPEEDS, Order, number, place, switch
@@ -20,9 +21,9 @@ from pilotage.web.show import Show
 from pilotage.web.stage import Stage, set_stage
 
 FRAME_EVERY = 1.0 / 20.0
-"""Time [s] on the clock between frames, at least,"""
+"""Shortest time [s] on the clock between two frames."""
 RECORD_EVERY = 0.5
-"""and time [s] of the drive, at most."""
+"""Longest time [s] of the drive between two frames: a fast drive sends more, for the timeline."""
 LATE = 0.5
 """A drive that is later than this [s] does not try to catch up."""
 STATE_EVERY = 1.0
@@ -43,9 +44,17 @@ def drive_in_worker(connection: Connection, order: Order) -> None:
     try:
         show = set_stage(order)
     except (PilotageError, ValueError) as error:
-        connection.send(("error", 0.0, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
+        send_fatal(connection, 0.0, error)
         return
-    Driver(connection, show, order).run()
+    try:
+        Driver(connection, show, order).run()
+    except FileError as error:  # a recording that breaks off; its file may be one that the server named
+        send_fatal(connection, show.stamp, UnreadableError(error.rule))
+
+
+def send_fatal(connection: Connection, t: float, error: Exception) -> None:
+    """Say why there will be no drive, or why it cannot go on at this time of it [s]."""
+    connection.send(("error", t, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
 
 
 class Driver:
@@ -237,7 +246,7 @@ class Driver:
                 path.write_text(self._corrected(), encoding="utf-8")
             else:
                 write_export(kind, self._stage.record(), path, self._order.title)
-        except (PilotageError, OSError, MemoryError) as error:
+        except (PilotageError, ValueError, OSError, MemoryError) as error:
             failure = str(error) or "there is not enough memory"
         self._connection.send(("exported", self._show.stamp, {"path": str(path), "failure": failure}))
         self._due = time.monotonic()

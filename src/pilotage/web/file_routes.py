@@ -23,9 +23,9 @@ LARGEST_DRAWING = 16 << 20
 LARGEST_UPLOAD = 64 << 20
 """Bytes of an upload."""
 UNDERSTAND_WITHIN = 20.0
-"""Time [s] to understand a drawing,"""
+"""Time [s] to understand a drawing."""
 READ_WITHIN = 60.0
-"""and to read an upload: tracing a photo takes a while."""
+"""Time [s] to read an upload: tracing a photo takes a while."""
 NOBODY_WAITS = 499
 """Status of an answer that nobody gets."""
 
@@ -35,12 +35,10 @@ UPLOADS = (
     ".svg", ".svgz", ".excalidraw", ".drawio", ".dxf", ".pdf", ".geojson", ".json", ".osm",
     ".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".pgm",
 )  # fmt: skip
-"""Kinds of files that may be dropped on the page; what a kind is worth, its reader says."""
+"""Kinds of files that may be dropped on the page; the reader of a kind says whether a file will do."""
 
 EXAMPLES = {f"{packed.name}/{hand}": (packed, hand) for packed in ALL for hand in ("careful", "quick")}
 """Drawings of the packed worlds, by name."""
-
-
 ROBOT = "robot"
 """Id of the robot on the network among the worlds."""
 

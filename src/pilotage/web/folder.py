@@ -1,6 +1,7 @@
 """The drawings in a folder: listed, read and written whole, and nothing outside of it."""
 
 import hashlib
+import itertools
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,6 +20,8 @@ MOST = 500
 """Files that are listed."""
 LONGEST = 200
 """Letters of a name."""
+LONGEST_STEM = 60
+"""Letters of a name that is made up, of four bytes at most: disks take 255 bytes with number and ending."""
 
 
 class NameRefusedError(ValueError):
@@ -81,10 +84,10 @@ class Folder:
 
     def free_name(self, stem: str, suffix: str = ".svg") -> str:
         """Make a name of which there is no file yet."""
-        plain = "".join(letter if letter.isalnum() or letter in "-_ " else "-" for letter in stem).strip(" -")
-        names = (
-            f"{plain or 'drawing'}{number}{suffix}" for number in ("", *(f"-{k}" for k in range(2, MOST)))
-        )
+        letters = (letter if letter.isalnum() or letter in "-_ " else "-" for letter in stem[:LONGEST_STEM])
+        plain = "".join(letters).strip(" -") or "drawing"
+        numbers = itertools.chain([""], (f"-{k}" for k in itertools.count(2)))
+        names = (f"{plain}{number}{suffix}" for number in numbers)
         return next(name for name in names if not (self.root / name).exists())
 
     def _walk(self, suffixes: tuple[str, ...]) -> Iterator[str]:

@@ -12,6 +12,7 @@ from pilotage.localization import Estimate, Localizer
 from pilotage.localization.particles import HEADING, displacements
 from pilotage.maps import CellGraph
 from pilotage.navigation import Navigator, Step
+from pilotage.navigation.route_leg import RouteLeg
 from pilotage.perception import LaserScan
 from pilotage.simulation import Scene, World
 from pilotage.web.drawings import Json, Page, Rows, rounded_rows
@@ -91,6 +92,29 @@ def told_frame(step: Step, now: Estimate, t: float, *, page: Page, graph: CellGr
     }
 
 
+def with_senses(
+    told: Json, now: Estimate, states: Array, scan: LaserScan, leg: RouteLeg | None, *, page: Page
+) -> Json:
+    """Add to a frame the particles (3, n), the scan and the route behind it."""
+    believed = told["believed"]
+    assert isinstance(believed, dict)
+    senses = {
+        "particles": poses_of(states, page),
+        "scan": flat(page.points(now.sketch_from_base @ seen(scan))),
+        "route": [] if leg is None else page.points(leg.route.way),
+    }
+    return {**told, "believed": {**believed, **senses}}
+
+
+def poses_of(states: Array, page: Page) -> list[float]:
+    """List x, y and heading of particles (3, n), one after the other."""
+    x, y, headings = states
+    points = np.array(page.points(np.column_stack([x, y])))
+    wrapped = np.round(np.arctan2(np.sin(headings), np.cos(headings)), 2)
+    listed: list[float] = np.column_stack([points, wrapped]).ravel().tolist()
+    return listed
+
+
 @dataclass(slots=True)
 class FrameMaker:
     """Makes frames of the steps of a navigator that is at work here."""
@@ -110,23 +134,11 @@ class FrameMaker:
 
     def frame(self, step: Step, scan: LaserScan, t: float, goal: str) -> Json:
         """Describe a step and the particles, the scan and the route behind it."""
-        navigator, page = self.navigator, self.page
-        now, leg = navigator.position.estimate, navigator.plan.leg
-        told = told_frame(step, now, t, page=page, graph=navigator.planner.graph, goal=goal)
-        believed = {
-            "particles": self.particles(),
-            "scan": flat(page.points(now.sketch_from_base @ seen(scan))),
-            "route": [] if leg is None or step.outcome else page.points(leg.route.way),
-        }
-        return {**told, "believed": {**told["believed"], **believed}}  # type: ignore[dict-item]
-
-    def particles(self) -> list[float]:
-        """List x, y and heading of particles, one after the other."""
-        x, y, headings = self.cloud.states(self.navigator.position.odom_from_base)
-        points = np.array(self.page.points(np.column_stack([x, y])))
-        wrapped = np.round(np.arctan2(np.sin(headings), np.cos(headings)), 2)
-        listed: list[float] = np.column_stack([points, wrapped]).ravel().tolist()
-        return listed
+        position, graph = self.navigator.position, self.navigator.planner.graph
+        told = told_frame(step, position.estimate, t, page=self.page, graph=graph, goal=goal)
+        states = self.cloud.states(position.odom_from_base)
+        leg = None if step.outcome else self.navigator.plan.leg
+        return with_senses(told, position.estimate, states, scan, leg, page=self.page)
 
     def world(self, scene: Scene) -> Json:
         """Describe what is true now."""

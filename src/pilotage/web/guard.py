@@ -1,9 +1,9 @@
 """Who may talk to the server: this machine, the page it served itself, and who knows the token."""
 
+import asyncio
 import hmac
 from collections.abc import Iterable
 from dataclasses import dataclass
-from urllib.parse import urlsplit
 
 from starlette.datastructures import MutableHeaders
 from starlette.requests import HTTPConnection
@@ -45,12 +45,15 @@ class Access:
         return f"pilotage-{port}"
 
     def allows_host(self, host: str) -> bool:
-        """Tell whether a request was meant for this server: another name is a rebound address."""
-        return self.any_host or host.lower() in self.hosts
+        """Tell whether a request was meant for this server: another name is a rebound address.
+
+        Browsers leave out the port of HTTP, 80.
+        """
+        return self.any_host or not self.hosts.isdisjoint({host.lower(), f"{host.lower()}:80"})
 
     def allows_origin(self, origin: str | None, host: str) -> bool:
         """Tell whether a request comes from a page of this server, or from no page at all."""
-        return origin is None or urlsplit(origin).netloc.lower() == host.lower()
+        return origin is None or origin.lower() in (f"http://{host.lower()}", f"https://{host.lower()}")
 
     def knows(self, offered: Iterable[str | None]) -> bool:
         """Tell whether one of the offered tokens is the right one."""
@@ -70,8 +73,12 @@ class Guard:
             await self.app(scope, receive, send)
             return
 
+        has_begun = False
+
         async def send_with_headers(message: Message) -> None:
+            nonlocal has_begun
             if message["type"] == "http.response.start":
+                has_begun = True
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
@@ -79,7 +86,11 @@ class Guard:
 
         refusal = self.refusal(HTTPConnection(scope))
         if refusal is None:
-            await self.app(scope, receive, send_with_headers)
+            try:
+                await self.app(scope, receive, send_with_headers)
+            except asyncio.CancelledError:  # the server ends before the answer is there
+                if scope["type"] == "http" and not has_begun:
+                    await refused(503, "the drawing table has ended")(scope, receive, send_with_headers)
         elif scope["type"] == "http":
             await refusal(scope, receive, send_with_headers)
         else:
@@ -96,9 +107,9 @@ class Guard:
             return refused(403, "this server is asked under a name that is not its own")
         if not access.allows_origin(asked.headers.get("origin"), host):
             return refused(403, "this page belongs to another server")
-        if asked.url.path.startswith("/assets/"):
+        if asked.scope["path"].startswith("/assets/"):
             return None  # the scripts of the page are no secret
-        if asked.url.path == "/" and access.knows([asked.query_params.get("token")]):
+        if asked.scope["path"] == "/" and access.knows([asked.query_params.get("token")]):
             welcome = RedirectResponse("/", 303)
             welcome.set_cookie(access.cookie, access.token, httponly=True, samesite="strict")
             return welcome

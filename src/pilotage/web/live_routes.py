@@ -66,7 +66,7 @@ async def first_message(websocket: WebSocket) -> Session | None:
     try:
         return await find_session(message, table_of(websocket))
     except (ValueError, WorkerError, OSError) as error:
-        await websocket.send_text(error_text(error))
+        await websocket.send_text(error_text(error, fatal=True))
         return None
 
 
@@ -89,7 +89,7 @@ async def receive(websocket: WebSocket) -> Message:
         received = await websocket.receive_text()
         try:
             message = json.loads(received)
-        except ValueError:
+        except (ValueError, RecursionError):
             message = None
         if isinstance(message, dict):
             return message
@@ -128,9 +128,9 @@ async def obey(message: Message, session: Session, client: Client) -> None:
             await asyncio.to_thread(session.tell, {"type": "seek", "t": moment})
 
 
-def error_text(error: Exception) -> str:
+def error_text(error: Exception, *, fatal: bool = False) -> str:
     """Write a message that says what will not do."""
-    return json.dumps({"v": 1, "type": "error", "text": str(error), "fatal": False})
+    return json.dumps({"v": 1, "type": "error", "text": str(error), "fatal": fatal})
 
 
 def read_order(message: Message, table: Table) -> Order:

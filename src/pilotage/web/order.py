@@ -19,7 +19,6 @@ LONGEST_NAME = 200
 FARTHEST = 1e9
 """Largest coordinate that is taken."""
 
-
 Place = tuple[float, float] | str
 """A point of the page, or the name of a room."""
 
@@ -112,7 +111,7 @@ def text(message: Mapping[str, object], name: str) -> str:
 
 
 def numbers(value: object, name: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Read a list of so many numbers."""
+    """Read a list of numbers, as many as one of `counts`."""
     is_list = isinstance(value, list) and len(value) in counts
     listed = value if is_list and isinstance(value, list) else []
     if not listed or not all(is_coordinate(one) for one in listed):

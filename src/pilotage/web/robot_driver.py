@@ -9,7 +9,7 @@ from multiprocessing.connection import Connection
 from pilotage.errors import PilotageError
 from pilotage.navigation import Outcome
 from pilotage.web.corrected import corrected_svg
-from pilotage.web.driver import STATE_EVERY, Driver
+from pilotage.web.driver import STATE_EVERY, Driver, send_fatal
 from pilotage.web.order import FARTHEST, Order, RobotOrder, number, place
 from pilotage.web.robot_show import RobotShow, show_robot
 
@@ -34,7 +34,7 @@ def drive_robot(connection: Connection, order: Order, robot: RobotOrder) -> None
     try:
         show = show_robot(order, robot)
     except (PilotageError, ValueError) as error:
-        connection.send(("error", 0.0, {"v": 1, "type": "error", "text": str(error), "fatal": True}))
+        send_fatal(connection, 0.0, error)
         return
     RobotDriver(connection, show, order, can_drive=robot.topics.drives).run()
 
@@ -45,7 +45,7 @@ class RobotDriver(Driver):
     def __init__(self, connection: Connection, show: RobotShow, order: Order, *, can_drive: bool) -> None:
         super().__init__(connection, show, order)
         self._robot, self._can_drive = show, can_drive
-        self._page_heard = self._told_trouble = self._trouble_at = 0.0
+        self._page_heard = 0.0  # [s] on the clock
         self._trouble = ""
         self._is_ended = False
 

@@ -43,7 +43,7 @@ class RobotSession(Session):
     def end(self) -> None:
         """End the worker once the wheels were told to stand."""
         self.tell({"type": "end"})
-        self._process.join(ENDS_WITHIN)
+        self._worker.process.join(ENDS_WITHIN)
         super().end()
 
 

@@ -13,7 +13,7 @@ from pilotage.ros.robot import LiveRobot
 from pilotage.ros.session import Session, Told
 from pilotage.ros.warm_up import warm_up
 from pilotage.web.drawings import Json, Page, describe_drawing, read_sent
-from pilotage.web.frames import Cloud, flat, seen, told_frame
+from pilotage.web.frames import Cloud, told_frame, with_senses
 from pilotage.web.order import Order, Place, RobotOrder
 from pilotage.web.replay import NoRoomError, graph_of
 
@@ -82,12 +82,7 @@ class RobotShow:
         told = told_frame(step, now, step.stamp, page=page, graph=self.graph, goal=self.goal_name)
         states = self._cloud.states(position.odom_from_base)
         leg = None if plan is None or step.outcome else plan.leg
-        believed = {
-            "particles": flat([page.pose(*state) for state in states.T.tolist()]),
-            "scan": flat(page.points(now.sketch_from_base @ seen(self._shown.scan))),
-            "route": [] if leg is None else page.points(leg.route.way),
-        }
-        return {**told, "believed": {**told["believed"], **believed}}  # type: ignore[dict-item]
+        return with_senses(told, now, states, self._shown.scan, leg, page=page)
 
     def describe(self, title: str) -> Json:
         """Describe the drawing and the goal."""

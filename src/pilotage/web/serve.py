@@ -14,7 +14,9 @@ from pilotage.web.guard import Access
 from pilotage.web.order import RobotOrder
 
 LOCAL = "127.0.0.1"
-"""The address that only this machine can reach."""
+"""The address that only this machine can reach, ..."""
+LOCAL_NAME = "localhost"
+"""... and its name."""
 PORTS_TRIED = 20
 """Ports after the wanted one that are tried if it is taken."""
 SHORTEST_TOKEN = 16
@@ -54,7 +56,8 @@ def serve(
         raise FileError("a folder of drawings is expected, found a file", folder)
     if not folder.is_dir():
         raise FileError("the folder of drawings must exist", folder)
-    if wanted.host != LOCAL and len(wanted.token) < SHORTEST_TOKEN:
+    is_local = wanted.host in (LOCAL, LOCAL_NAME)
+    if not is_local and len(wanted.token) < SHORTEST_TOKEN:
         raise ServerError(
             f"a server that others can reach needs --token with {SHORTEST_TOKEN} letters or more,"
             f" got {len(wanted.token)}"
@@ -68,8 +71,8 @@ def serve(
     listening = listen(wanted.host, wanted.port)
     port = listening.getsockname()[1]
     token = wanted.token or secrets.token_urlsafe(24)
-    hosts = frozenset(f"{name}:{port}" for name in (wanted.host, LOCAL, "localhost"))
-    app = build_app(Table(Folder(folder), robot), Access(token, hosts, any_host=wanted.host != LOCAL))
+    hosts = frozenset(f"{name}:{port}" for name in (wanted.host, LOCAL, LOCAL_NAME))
+    app = build_app(Table(Folder(folder), robot), Access(token, hosts, any_host=not is_local))
     server = uvicorn.Server(
         uvicorn.Config(
             app,

@@ -8,14 +8,12 @@ import tempfile
 import threading
 import time
 from collections.abc import Mapping
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from pilotage.web.history import History
 from pilotage.web.order import Order, RobotOrder
 from pilotage.web.work import drive
-from pilotage.web.workers import WorkerError, start
+from pilotage.web.workers import Worker, WorkerError, start
 
 TOLD_FIRST = ("session", "command", "world", "marks", "state", "corrected", "frame", "done", "error")
 """Order in which a client gets what waits for it."""
@@ -78,7 +76,7 @@ class Client:
 class Session:
     """A drive: passes on what its worker says, and remembers enough for who comes later."""
 
-    def __init__(self, title: str, process: BaseProcess, connection: Connection) -> None:
+    def __init__(self, title: str, worker: Worker) -> None:
         self.number = secrets.token_urlsafe(9)
         self.title = title
         self.history = History()
@@ -91,7 +89,7 @@ class Session:
         self.watched_at = time.monotonic()
         self._said: dict[str, str] = {}
         self._exports: dict[str, asyncio.Future[str]] = {}
-        self._process, self._connection = process, connection
+        self._worker = worker
         self._loop = asyncio.get_running_loop()
         threading.Thread(target=self._listen, daemon=True, name=f"drive {self.number}").start()
 
@@ -103,7 +101,7 @@ class Session:
     def tell(self, message: Message) -> None:
         """Pass a message on to the worker; one that is gone does not mind."""
         with contextlib.suppress(OSError, ValueError):
-            self._connection.send(message)
+            self._worker.connection.send(message)
 
     def refusal(self, _kind: str, _client: Client) -> str:
         """Say why a client may not do what it asks; empty if it may."""
@@ -153,17 +151,17 @@ class Session:
 
     def end(self) -> None:
         """End the worker."""
-        self._process.kill()
+        self._worker.end()
 
     def _listen(self) -> None:
         """Hear the worker, in a thread of its own, until it ends."""
         try:
             while True:
-                self._loop.call_soon_threadsafe(self._hear, *self._connection.recv())
+                self._loop.call_soon_threadsafe(self._hear, *self._worker.connection.recv())
         except (EOFError, OSError):
             with contextlib.suppress(RuntimeError):  # the server has ended before the worker
                 self._loop.call_soon_threadsafe(self._hear_end)
-        self._process.join()
+        self._worker.tidy()
 
     def _hear(self, kind: str, t: float, said: "str | dict[str, object]") -> None:
         """Pass on what the worker said."""
@@ -227,26 +225,29 @@ class Sessions:
 
     async def begin(self, order: Order) -> Session:
         """Begin a drive; WorkerError if too many go on. A robot that is watched already is gone back to."""
-        if not isinstance(order.world, RobotOrder):
+        async with self._beginning:  # else drives that begin together would not count each other
+            if isinstance(order.world, RobotOrder):
+                return await self._begin_robot(order)
             return await self._begin(order, Session)
+
+    async def _begin_robot(self, order: Order) -> Session:
+        """Go back to the robot if it is watched, else join it anew."""
         from pilotage.web.robot_sessions import RobotSession
 
-        async with self._beginning:
-            for one in self.all():
-                if isinstance(one, RobotSession) and one.clients and not one.over:
-                    one.resume()
-                    return one
-                if isinstance(one, RobotSession):
-                    await asyncio.to_thread(self.forget, one.number)
-            return await self._begin(order, RobotSession)
+        for one in self.all():
+            if isinstance(one, RobotSession) and one.clients and not one.over:
+                one.resume()
+                return one
+            if isinstance(one, RobotSession):
+                await asyncio.to_thread(self.forget, one.number)
+        return await self._begin(order, RobotSession)
 
     async def _begin(self, order: Order, kind: type[Session]) -> Session:
         """Start a worker."""
         if sum(not one.over for one in self._sessions.values()) >= MOST_GOING:
             raise WorkerError(f"{MOST_GOING} drives go on already, stop one first")
         self._forget_oldest()
-        process, connection = await asyncio.to_thread(start, drive, order)
-        session = kind(order.title, process, connection)
+        session = kind(order.title, await asyncio.to_thread(start, drive, order))
         self._sessions[session.number] = session
         return session
 

@@ -8,8 +8,10 @@ import contextlib
 import multiprocessing
 import os
 import sys
+import tempfile
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
@@ -53,17 +55,54 @@ def warm_up() -> None:
         forkserver.ensure_running()
 
 
-def start(work: Callable[..., None], *arguments: object) -> tuple[BaseProcess, Connection]:
+@dataclass(frozen=True, slots=True)
+class Worker:
+    """A process, the connection to it, and its temporary files, which it cannot delete if it is killed."""
+
+    process: BaseProcess
+    connection: Connection
+    folder: "tempfile.TemporaryDirectory[str]"
+
+    def end(self) -> None:
+        """Kill the process; `tidy` is still to be called."""
+        self.process.kill()
+
+    def tidy(self) -> None:
+        """Wait for the end of the process, and delete what it leaves."""
+        self.process.join()
+        self.folder.cleanup()
+
+
+def start(work: Callable[..., None], *arguments: object) -> Worker:
     """Start a worker that talks over a connection, its first argument."""
     here, there = multiprocessing.Pipe()
-    process = context().Process(target=run, args=(there, work, *arguments), daemon=True)
+    folder = tempfile.TemporaryDirectory(prefix="pilotage-", ignore_cleanup_errors=True)
+    process = context().Process(target=run, args=(folder.name, there, work, *arguments), daemon=True)
     process.start()
     there.close()
-    return process, here
+    return Worker(process, here, folder)
 
 
-def run(connection: Connection, work: Callable[..., None], *arguments: object) -> None:
+async def started(work: Callable[..., None], *arguments: object) -> Worker:
+    """Start a worker in a thread; one that nobody waits for any more is ended once it has begun."""
+    starting = asyncio.ensure_future(asyncio.to_thread(start, work, *arguments))
+    try:
+        return await asyncio.shield(starting)
+    except asyncio.CancelledError:
+        starting.add_done_callback(end_unwanted)
+        raise
+
+
+def end_unwanted(starting: "asyncio.Future[Worker]") -> None:
+    """End a worker that has begun."""
+    if not starting.cancelled() and starting.exception() is None:
+        starting.result().end()
+        starting.get_loop().run_in_executor(None, starting.result().tidy)
+
+
+def run(folder: str, connection: Connection, work: Callable[..., None], *arguments: object) -> None:
     """Do the work in the worker; the end of the connection ends it too."""
+    tempfile.tempdir = folder
     with contextlib.suppress(ConnectionError, EOFError, KeyboardInterrupt):
         work(connection, *arguments)
 
@@ -82,18 +121,18 @@ class Jobs:
         Raises RefusedError with the message of a PilotageError, WorkerError for all else.
         """
         async with self._free:
-            process, connection = await asyncio.to_thread(start, answer, function, *arguments)
+            worker = await started(answer, function, *arguments)
             try:
-                is_there = await waited(connection, within)
+                is_there = await waited(worker.connection, within)
                 if not is_there:
                     raise WorkerError(f"{name} took longer than {within:g} s and was stopped")
-                is_right, result = connection.recv()
+                is_right, result = worker.connection.recv()
             except (EOFError, OSError) as error:
                 raise WorkerError(f"{name} failed: its process ended unexpectedly") from error
             finally:
-                connection.close()
-                process.kill()
-                asyncio.get_running_loop().run_in_executor(None, process.join)
+                worker.connection.close()
+                worker.end()
+                asyncio.get_running_loop().run_in_executor(None, worker.tidy)
         if is_right:
             found: Result = result
             return found

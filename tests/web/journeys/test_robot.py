@@ -5,6 +5,7 @@ import re
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -41,17 +42,18 @@ def table(tmp_path: Path) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
         port = free.getsockname()[1]
     pilotage = Path(sys.executable).with_name("pilotage")
     options = ["--no-browser", "--port", str(port), "--token", "robot", "--ros2", "--domain", str(DOMAIN)]
-    server = subprocess.Popen(  # noqa: S603  # our own command
-        [pilotage, "table", tmp_path, *options, "--drive", *LIMITS], env=dict(os.environ)
-    )
-    for _ in range(300):
-        with socket.socket() as caller:
-            if caller.connect_ex(("127.0.0.1", port)) == 0:
-                break
-        time.sleep(0.1)
-    yield f"http://127.0.0.1:{port}/?token=robot", server
-    server.terminate()
-    server.wait(30)
+    with tempfile.TemporaryDirectory() as left:  # a test kills the server, which then cannot tidy up
+        server = subprocess.Popen(  # noqa: S603  # our own command
+            [pilotage, "table", tmp_path, *options, "--drive", *LIMITS], env={**os.environ, "TMPDIR": left}
+        )
+        for _ in range(300):
+            with socket.socket() as caller:
+                if caller.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            time.sleep(0.1)
+        yield f"http://127.0.0.1:{port}/?token=robot", server
+        server.terminate()
+        server.wait(30)
 
 
 def open_page(context: BrowserContext, address: str) -> Page:

@@ -14,20 +14,20 @@ from pilotage.evaluation.rooms import Rooms
 from pilotage.evaluation.warp import Warp
 from pilotage.geometry import Array
 
-# Standard deviations at severity 1 of what each room wants: log scale, p, q, turn [rad].
 ROOM = np.array([0.4, 0.38, 0.38, 0.15])
+"""Standard deviations at severity 1 of what each room wants: log scale, p, q, turn [rad]."""
 SMOOTH = np.array([0.2, 0.25, 0.25, 0.1])
-"""The same, of a field that changes slowly over the sheet."""
+"""Standard deviations of the same of a field that changes slowly over the sheet."""
 SHEET = np.array([0.0, 0.12, 0.12, 0.0])
-"""The same, of the whole sheet."""
+"""Standard deviations of the same of the whole sheet."""
 LINE = math.log(0.15)
-"""Factor by which a corridor that is drawn as a line is narrowed, as a logarithm."""
+"""Logarithm of the factor by which a corridor that is drawn as a line is narrowed."""
 STRAIGHT = 5.0
-"""[m] Walls stay straight over this length: people bend rooms at their corners."""
+"""Length [m] over which walls stay straight: people bend rooms at their corners."""
 TILT = math.radians(25.0)
 """Largest turn of the sheet at severity 1, beside quarter turns."""
 UNIT = (4.0, 16.0)
-"""Drawing units per metre: anything between these."""
+"""Least and greatest scale [drawing units per metre]."""
 
 
 def deform(plan: Plan, severity: float, seed: int) -> Plan:

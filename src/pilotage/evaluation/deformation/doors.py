@@ -9,13 +9,13 @@ from pilotage.evaluation.rooms import Rooms
 
 LINE = int(shapely.GeometryType.LINESTRING)
 BESIDE = 0.5
-"""[m] Rooms are neighbors where they are this close."""
+"""Distance [m] within which rooms are neighbors."""
 ON_STROKE = 0.15
-"""[m] A border is walled where a stroke is this close."""
+"""Distance [m] of a stroke within which a border is walled."""
 NARROWEST = 0.4
-"""[m] of an opening."""
+"""Least width [m] of an opening."""
 WIDEST_DOOR = 1.8
-"""[m] A wider opening is a passage."""
+"""Greatest width [m] of a door; a wider opening is a passage."""
 
 
 @dataclass(frozen=True, eq=False)

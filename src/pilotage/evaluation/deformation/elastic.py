@@ -18,13 +18,13 @@ from scipy.sparse.linalg import factorized
 from pilotage.geometry import Array
 
 SPACING = 1.0
-"""[m] Between nodes."""
+"""Distance [m] between nodes."""
 MARGIN = 4.0
-"""[m] Around the plan."""
+"""Space [m] around the plan."""
 LEAST_AREA = 0.03
-"""No half of a square of the grid may shrink to less than this share of its area, or be turned over."""
+"""Least share of its area to which half a square of the grid may shrink; below 0 it is turned over."""
 WEAKER, AROUND = 0.8, 3
-"""Factor by which the wishes are weakened where one does, and this many nodes around it."""
+"""Factor by which wishes are weakened where the sheet would fold, and within how many nodes of there."""
 
 
 @dataclass(frozen=True, eq=False)

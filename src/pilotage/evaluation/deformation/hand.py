@@ -9,17 +9,17 @@ from scipy.ndimage import gaussian_filter1d
 from pilotage.geometry import Array
 
 STEP = 0.5
-"""[m] Between the points of a stroke that trembles."""
+"""Distance [m] between the points of a stroke that trembles."""
 TREMOR = 0.08
-"""[m] Deviation of a stroke's points, at severity 1 ..."""
+"""Standard deviation [m] of a stroke's points at severity 1."""
 TREMOR_LENGTH = 1.5
-"""[m] ... that is alike over this length."""
+"""Length [m] of a stroke over which that deviation is alike."""
 END = 0.2
-"""[m] Deviation of the ends along the stroke, at severity 1: overshoot or gap."""
+"""Standard deviation [m] of the ends along the stroke at severity 1: overshoot or gap."""
 TURN, MOST_SHIFT = math.radians(4.0), 0.35
-"""[rad] Deviation of a stroke's angle, at severity 1, unless that shifts its ends by more than this [m]."""
+"""Standard deviation [rad] of a stroke's angle at severity 1, and how far [m] it may shift the ends."""
 FLAT = 0.02
-"""[m] Points that are less off the line between others are dropped."""
+"""Distance [m] from the line between others below which points are dropped."""
 
 
 def shaky(line: shapely.LineString, severity: float, rng: np.random.Generator) -> shapely.LineString:

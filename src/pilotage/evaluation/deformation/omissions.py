@@ -28,15 +28,15 @@ MISSING_ROOM = 0.12
 LINE_CORRIDOR = 0.1
 
 DOOR_WIDTH = 1.0
-"""[m] of a door that is drawn elsewhere, at least."""
+"""Least width [m] of a door that is drawn elsewhere."""
 NICHE = 0.35
-"""[m] Niches that are less deep than this are dropped, at severity 1."""
+"""Depth [m] below which niches are dropped at severity 1."""
 SPECK = 0.05
-"""[m] Shorter remains of strokes are rubbed out."""
+"""Length [m] up to which remains of strokes are rubbed out."""
 WALL = 0.4
-"""[m] Strokes this close to a room are its walls."""
+"""Distance [m] from a room within which strokes are its walls."""
 CORRIDOR_WIDTH, CORRIDOR_ASPECT = 3.5, 3.0
-"""A corridor is narrower than this [m], and this many times as long as wide."""
+"""Greatest width [m] of a corridor, and least ratio of its length to its width."""
 
 
 @dataclass(frozen=True, eq=False)

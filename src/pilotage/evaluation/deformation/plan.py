@@ -14,9 +14,9 @@ from pilotage.io import open_map
 from pilotage.maps import SchematicMap
 
 CONTROL_SPACING = 1.5
-"""[m] Between the control points that are added inside rooms."""
+"""Distance [m] between the control points that are added inside rooms."""
 CARRIED_STEP = 0.25
-"""[m] Strokes are carried back to the building in pieces of this length, at the most."""
+"""Greatest length [m] of the pieces in which strokes are carried back to the building."""
 
 
 @dataclass(frozen=True, eq=False)

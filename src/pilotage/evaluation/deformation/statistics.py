@@ -10,9 +10,9 @@ from pilotage.evaluation.rooms import Rooms
 from pilotage.geometry import Array, fit_similarity
 
 SPAN = 2.0
-"""[m] Over which local scale and stretch are measured."""
+"""Length [m] over which local scale and stretch are measured."""
 STEP = 0.5
-"""[m] of the way that is tested for drawn walls."""
+"""Length [m] of a step of the way that is tested for drawn walls."""
 
 
 @dataclass(frozen=True, slots=True)
