@@ -45,6 +45,17 @@ def test_things_stand_where_the_beams_ended():
     assert grid.cell > away.max()
 
 
+@pytest.mark.parametrize(("fov", "is_seen_free"), [(math.pi, True), (math.tau * 179 / 180, False)])
+def test_the_last_beam_is_beside_the_first_only_if_the_scanner_sees_all_around(fov, is_seen_free):
+    ranges = np.full(180, 2.0)
+    ranges[:2] = np.inf  # two beams without return are free space, one between returns may be glass
+    scan = LaserScan(0.0, 0.0, fov / 179, ranges)
+    grid = LocalGrid.unknown(SIZE).seen(scan, Pose2.identity())
+
+    ahead = np.array([[1.5, 0.0]])
+    assert is_seen_free == (evidence_at(grid, ahead)[0][0] < 0)
+
+
 def test_a_laser_that_is_mounted_anywhere_sees_the_same_things():
     base_from_laser = Pose2(-0.3, 0.1, 2.5)
     scan = scan_at(HERE @ base_from_laser, **ALL_AROUND)

@@ -1,6 +1,5 @@
 """What the robot saw at a keyframe, and how it moved to it; knows no drawing."""
 
-import math
 from dataclasses import dataclass
 
 from pilotage.geometry import Pose2
@@ -27,5 +26,4 @@ class Observation:
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
     """Take what is compared with a drawing from a scan and its perceived shapes, in the robot's frame."""
     corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))
-    view = min(len(scan) * abs(scan.angle_increment), math.tau)
-    return Observation(thin_scan(scan), corners, motion, scan.stamp, view)
+    return Observation(thin_scan(scan), corners, motion, scan.stamp, scan.view)

@@ -66,7 +66,9 @@ class LocalGrid:
         returned = scan.returned
         ranges = np.where(returned, scan.ranges, 0.0)
         nothing = scan.ranges == np.inf  # a single beam without return is glass or black paint
-        nothing &= np.roll(nothing, 1) & np.roll(nothing, -1)
+        is_ring = math.tau - scan.view < abs(scan.angle_increment)  # the last beam is beside the first
+        beside = np.pad(nothing, 1, mode="wrap" if is_ring else "edge")
+        nothing &= beside[:-2] & beside[2:]
         ranges[nothing] = min(NO_RETURN, scan.range_max)
         origin = (odom_from_laser.x / cell - corner[0], odom_from_laser.y / cell - corner[1])
         beams = densified(odom_from_laser.theta + scan.directions, ranges / cell, returned)

@@ -66,6 +66,11 @@ class LaserScan:
         return self.angle_min + self.angle_increment * np.arange(len(self.ranges), dtype=np.float64)
 
     @property
+    def view(self) -> float:
+        """Angle that the scan covers, at most a full turn [rad]."""
+        return min(len(self.ranges) * abs(self.angle_increment), math.tau)
+
+    @property
     def returned(self) -> NDArray[np.bool_]:
         """Which beams came back with a range, (n,)."""
         return np.isfinite(self.ranges)
