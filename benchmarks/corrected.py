@@ -1,6 +1,6 @@
 """Correct drawings of six real buildings after their logs, and tell how far walls are from the true ones.
 
-    python -m benchmarks corrected [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks corrected [--buildings A,B] [--hands A,B] [--jobs N] [--figure FILE]
 
 The whole log of a building is localized on a drawing, told neither start nor heading nor scale, and the
 drawing is corrected. Points along the drawn walls that the robot saw are compared with their true places,
@@ -8,7 +8,8 @@ known by control points: the drawing after the best similarity to the truth, the
 best rigid motion, as its unit is the metre. The gap is the distance to the nearest laser hit at the true
 poses, whatever it shows. Defaults were chosen on aces, belgioioso, csail and freiburg-079, but `schematic` of
 fhw and of freiburg-101 were in view as well; their other drawings are held out. What was seen along a log
-is kept in a cache folder while the code that makes it stays the same.
+is kept in a cache folder while the code that makes it stays the same. `--figure` draws the first drawing, its
+correction and the true walls: docs/images/corrected.png is `schematic` of freiburg-079.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import pickle
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
+from pathlib import Path
 
 import numpy as np
 import platformdirs
@@ -31,12 +33,14 @@ from benchmarks.lib.worlds import OCCUPIED, world_of
 from pilotage.correction import NothingBelievedError, Sighting, append_sighting, correct_drawing
 from pilotage.evaluation.walls import TrueWalls
 from pilotage.evaluation.warp import read_warp
+from pilotage.figures.corrected import corrected_figure
+from pilotage.figures.style import save
 from pilotage.geometry import Array
 from pilotage.io import open_log, open_map
 from pilotage.io.files import replacing
 from pilotage.io.map_server import read_entries
 from pilotage.localization import Localizer
-from pilotage.maps import AtlasSettings, build_atlas
+from pilotage.maps import AtlasSettings, SchematicMap, build_atlas
 
 STORE = platformdirs.user_cache_path("pilotage") / "sightings"
 
@@ -47,6 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose drawings."""
     add_drawings(parser, BUILDINGS, HANDS)
     add_jobs(parser)
+    parser.add_argument("--figure", type=Path, help="draw the first drawing and its correction here")
 
 
 def measure(arguments: argparse.Namespace) -> Figures:
@@ -69,6 +74,8 @@ def measure(arguments: argparse.Namespace) -> Figures:
             if found := [rows[one][hand] for one in chosen if hand in rows.get(one, {})]:
                 rows[name][hand] = mean_of(found)
                 print(line(name.replace("_", " "), hand, rows[name][hand]))
+    if arguments.figure is not None:
+        draw(*tasks[0], arguments.figure)
     return rows
 
 
@@ -80,9 +87,7 @@ def all_rows(tasks: list[tuple[str, str]], jobs: int) -> Iterator[Figures]:
 
 def row_of(building: str, hand: str) -> Figures:
     """Localize along a log, correct the drawing, and score it; without a correction it stays as it is."""
-    path = drawing_of(building, hand)
-    sketch = open_map(path)
-    truth = TrueWalls.of(sketch, read_warp(path.with_suffix(".json"), sketch), hits_in(building))
+    sketch, truth = with_truth(building, hand)
     before, gap_before = truth.error_of_drawing(), truth.gap_of_drawing()
     row = {"before_m": before, "after_m": before, "gap_before_m": gap_before, "gap_after_m": gap_before}
     try:
@@ -91,6 +96,21 @@ def row_of(building: str, hand: str) -> Figures:
         return {**row, "corrected": 0.0}
     places = corrected.metres_from_sketch @ truth.in_sketch
     return {**row, "after_m": truth.error_of(places), "gap_after_m": truth.gap_of(places), "corrected": 1.0}
+
+
+def with_truth(building: str, hand: str) -> tuple[SchematicMap, TrueWalls]:
+    """Read a drawing, and where its walls truly are."""
+    path = drawing_of(building, hand)
+    sketch = open_map(path)
+    return sketch, TrueWalls.of(sketch, read_warp(path.with_suffix(".json"), sketch), hits_in(building))
+
+
+def draw(building: str, hand: str, path: Path) -> None:
+    """Draw a drawing beside its correction, which lies on the true walls."""
+    sketch, truth = with_truth(building, hand)
+    corrected = correct_drawing(build_atlas(sketch, AtlasSettings()), kept_sightings(building, hand))
+    hits = truth.hits_beside(corrected.metres_from_sketch @ truth.in_sketch)
+    save(corrected_figure(sketch, corrected, true_hits=hits), path)
 
 
 def kept_sightings(building: str, hand: str) -> list[Sighting]:

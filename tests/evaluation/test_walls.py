@@ -27,6 +27,7 @@ def test_a_true_drawing_errs_nowhere_and_where_it_lies_does_not_matter(pose):
 
     assert walls.error_of_drawing() == pytest.approx(0.0, abs=1e-9)
     assert walls.error_of(pose @ walls.in_world) == pytest.approx(0.0, abs=1e-9)
+    assert walls.hits_beside(pose @ walls.in_world) == pytest.approx(pose @ walls.hits, abs=1e-6)
 
 
 def test_a_corrected_drawing_must_have_the_true_scale():

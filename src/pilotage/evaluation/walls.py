@@ -54,6 +54,10 @@ class TrueWalls:
         """Mean distance of the same points, corrected (n, 2), from the nearest hit [m]."""
         return self._gap(corrected, rigid=True)
 
+    def hits_beside(self, corrected: Array) -> Array:
+        """Carry the hits to the frame of corrected points (n, 2), by the best rigid motion, (m, 2) [m]."""
+        return fit_similarity(corrected, self.in_world, rigid=True).inverse() @ self.hits
+
     def _error(self, points: Array, *, rigid: bool) -> float:
         moved = fit_similarity(points, self.in_world, rigid=rigid) @ points
         return float(np.hypot(*(moved - self.in_world).T).mean())
