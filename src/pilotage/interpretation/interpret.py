@@ -138,6 +138,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             *opened_halves(halves),
             *opened_dashed(sheet, sorted(dashed)),
         ),
+        openings=sheet.openings,
     )
     meanings = find_meanings(
         sheet,
