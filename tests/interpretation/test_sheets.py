@@ -96,13 +96,14 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("A-Beams", Role.IGNORE),
         ("Außenwand", Role.WALL),
         ("seuils", Role.DOOR),
+        ("sheet-border", Role.IGNORE),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):
     assert (role, f"its name is {name!r}") == guessed_role([name])
 
 
-@pytest.mark.parametrize("name", ["Layer 1", "0", "g1234", "wallaby", ""])
+@pytest.mark.parametrize("name", ["Layer 1", "0", "g1234", "wallaby", "", "room-fill room-border"])
 def test_names_that_say_nothing_tell_no_role(name):
     assert guessed_role([name]) is None
 
@@ -148,3 +149,15 @@ def test_a_title_and_a_small_word_below_it_are_two_names():
     texts = [Text("KITCHEN", (0.0, 0.0), 6.0), Text("tiled", (0.0, -6.0), 3.0)]
 
     assert ["KITCHEN", "tiled"] == [name.words for name in find_names(list(enumerate(texts)))]
+
+
+def test_what_is_written_at_a_door_names_no_room_unless_a_person_says_so():
+    texts = (
+        Text("Hall", (20.0, 20.0), 3.0),
+        Text("Front door", (40.0, 5.0), 3.0),
+        Text("Red door", (60.0, 30.0), 3.0, names=("label",)),
+    )
+
+    labels = interpret(Sheet(WITH_GAP, texts)).sketch.labels
+
+    assert ["Hall", "Red door"] == [label.text for label in labels]

@@ -22,7 +22,7 @@ from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.walls import Walls, find_walls, rings_of
-from pilotage.interpretation.words import find_names
+from pilotage.interpretation.words import find_names, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
 
@@ -115,7 +115,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     )
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    text_roles = [told_role(text.names, layers) or (Role.LABEL, "words") for text in sheet.texts]
+    text_roles = [told_role(text.names, layers) or role_of_words(text.text) for text in sheet.texts]
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
     names = find_names([(number, sheet.texts[number]) for number in spoken])
     labels = tuple(Label(name.words, name.position) for name in names)

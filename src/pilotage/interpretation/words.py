@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.interpretation.sheet import Text
+from pilotage.interpretation.names import meaning_of, name_words
+from pilotage.interpretation.sheet import Role, Text
 
 LEADING = 2.1
 """Lines of one name are no farther apart than so many heights of their letters."""
@@ -65,6 +66,18 @@ def is_measure(words: str) -> bool:
     has_number = any(token[0].isdecimal() for token in tokens)
     has_unit = bool(letters) or any(token in SIGNS for token in tokens)
     return has_number and has_unit and all(word in UNITS for word in letters)
+
+
+def role_of_words(words: str) -> tuple[Role, str]:
+    """Tell names of places from what is written at doors and windows: its last word is one for them.
+
+    >>> [role_of_words(words)[0].value for words in ("Front door", "Badtür (60 cm)", "Outdoor", "Door 2 bar")]
+    ['ignore', 'ignore', 'label', 'label']
+    """
+    spoken = [word for word in name_words(re.sub(r"\(.*?\)", " ", words)) if word not in UNITS]
+    if spoken and meaning_of(spoken[-1]) in (Role.DOOR, Role.WINDOW):
+        return Role.IGNORE, "the name of a door or a window"
+    return Role.LABEL, "words"
 
 
 def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
