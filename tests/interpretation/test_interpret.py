@@ -98,6 +98,20 @@ def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_roo
     assert not are_joined((OUTSIDE, partition))
 
 
+def test_thin_lines_are_furniture_too_where_the_thick_walls_are_open_at_wide_windows():
+    below = [stroke((0, 20), (0, 0), (10, 0)), stroke((40, 0), (60, 0)), stroke((90, 0), (100, 0))]
+    walls = (*below, stroke((100, 0), (100, 80), (0, 80), (0, 60)), *WITH_GAP[1:])
+    ends = (((10, 0), (40, 0)), ((60, 0), (90, 0)), ((0, 20), (0, 60)))
+    panes = [stroke(start, end, width=0.1) for start, end in ends]
+    table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), width=0.1)
+
+    understood = interpret(Sheet((*walls, *panes, table)))
+
+    assert Role.FURNITURE is understood.meanings[-1].role
+    assert [Role.WALL] * 3 == [meaning.role for meaning in understood.meanings[-4:-1]]
+    assert are_joined((*walls, *panes, table))
+
+
 def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_around_it():
     walls = (OUTSIDE, stroke((50, 0), (50, 80)))
     brown, blue = (0.55, 0.27, 0.07), (0.53, 0.81, 0.92)
