@@ -1,5 +1,7 @@
 """Paper, letters, names of layers, and words."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,19 @@ def test_white_lines_without_any_ground_are_drawn_for_a_dark_one():
 
     assert are_joined(light)
     assert are_joined((*WITH_GAP, stroke((0, 40), (100, 40), color=WHITE)))
+
+
+@pytest.mark.parametrize(("size", "joined"), [(4.0, True), (30.0, False)])
+def test_white_lines_are_drawn_for_a_dark_ground_though_small_things_have_a_color(size, joined):
+    walls = [replace(mark, pen=Pen(WHITE, 1.0)) for mark in WITH_GAP]
+    lamp = box(20, 20, 20 + size, 20 + size, fill=(0.3, 0.3, 0.3))
+
+    found = {cell.label for cell in graph_of((*walls, lamp)).cells} if joined else set()
+
+    assert ({"bath", "hall"} <= found) is joined
+    assert (
+        Role.WALL in {meaning.role for meaning in interpret(Sheet((*walls, lamp))).meanings[:3]}
+    ) is joined
 
 
 def test_a_colored_rectangle_on_a_part_of_the_page_is_no_paper():
