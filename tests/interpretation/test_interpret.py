@@ -52,6 +52,16 @@ def test_walls_painted_with_a_thickness_are_solid():
     assert 2 == len([cell for cell in graph_of(painted).cells if cell.label])
 
 
+def test_a_lawn_is_no_wall_though_a_house_and_paths_leave_little_of_it():
+    lawn = box(-15, -15, 115, 95, fill=(0.2, 0.5, 0.2))
+    paths = [box(0, y, 100, y + 1, fill=(0.9, 0.9, 0.8)) for y in (-14, -12, -10, 90, 92, 94)]
+    rooms = [box(x, 0, x + 50, 80, pen=Pen(BLACK, 1.0), fill=WHITE) for x in (0, 50)]
+    marks = (lawn, *paths, *rooms)
+
+    assert not interpret(Sheet(marks)).sketch.solids
+    assert {"bath", "hall"} <= {cell.label for cell in graph_of(marks).cells}
+
+
 @pytest.mark.parametrize("furniture", [{"color": RED}, {"dashed": True}])
 def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
     table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), **furniture)
