@@ -166,6 +166,20 @@ def test_a_title_and_a_small_word_below_it_are_two_names():
     assert ["KITCHEN", "tiled"] == [name.words for name in find_names(list(enumerate(texts)))]
 
 
+@pytest.mark.parametrize(
+    ("lines", "names"),
+    [
+        (("Reception", "الاستقبال", "रिसेप्शन"), ["Reception", "الاستقبال", "रिसेप्शन"]),
+        (("Main", "hall — الممر"), ["Main hall — الممر"]),
+        (("会議室", "エー", "B"), ["会議室 エー B"]),
+    ],
+)
+def test_a_line_in_another_script_is_a_name_of_its_own(lines, names):
+    texts = [Text(line, (0.0, -4.0 * place), 3.0) for place, line in enumerate(lines)]
+
+    assert names == [name.words for name in find_names(list(enumerate(texts)))]
+
+
 def test_what_is_written_at_a_door_names_no_room_unless_a_person_says_so():
     texts = (
         Text("Hall", (20.0, 20.0), 3.0),

@@ -2,6 +2,7 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,6 +16,9 @@ LEADING = 2.1
 
 GLYPH_WIDTH = 0.5
 """Mean width of a letter in heights of a line."""
+
+EAST_ASIAN = {"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "HANGUL", "FULLWIDTH", "HALFWIDTH"}
+"""First words of the names of letters that are written side by side."""
 
 ALIKE = 1.35
 """Lines of one name differ in height by no more than this factor."""
@@ -113,8 +117,10 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
 
 
 def step_down(upper: Text, lower: Text) -> float | None:
-    """Measure from one line to the next of the same name; None if it is none."""
+    """Measure from one line to the next of the same name; None if it is none, as a translation is."""
     height = max(upper.height, lower.height)
+    if (above := scripts(upper.text)) and (below := scripts(lower.text)) and not above & below:
+        return None
     if min(upper.height, lower.height) <= 0.0 or height > ALIKE * min(upper.height, lower.height):
         return None
     if abs(math.remainder(upper.angle - lower.angle, 2.0 * math.pi)) > 0.1:
@@ -126,3 +132,17 @@ def step_down(upper: Text, lower: Text) -> float | None:
     if not 0.5 * height < down <= LEADING * height or abs(along) > reach:
         return None
     return down
+
+
+def scripts(words: str) -> set[str]:
+    """Name the scripts that words are written in; a letter that stands alone is in any.
+
+    >>> sorted(scripts("Main hall, الممر")), scripts("会議室 A"), scripts("トイレ"), scripts("B 2")
+    (['ARABIC', 'LATIN'], {'CJK'}, {'CJK'}, set())
+    """
+    found = set()
+    for word in words.split():
+        letters = [unicodedata.name(letter, "").partition(" ")[0] for letter in word if letter.isalpha()]
+        written = {"CJK" if script in EAST_ASIAN else script for script in letters}
+        found |= written if len(letters) > 1 or "CJK" in written else set()
+    return found
