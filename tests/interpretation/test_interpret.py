@@ -52,6 +52,16 @@ def test_walls_painted_with_a_thickness_are_solid():
     assert 2 == len([cell for cell in graph_of(painted).cells if cell.label])
 
 
+def test_a_lawn_is_no_wall_though_a_house_and_paths_leave_little_of_it():
+    lawn = box(-15, -15, 115, 95, fill=(0.2, 0.5, 0.2))
+    paths = [box(0, y, 100, y + 1, fill=(0.9, 0.9, 0.8)) for y in (-14, -12, -10, 90, 92, 94)]
+    rooms = [box(x, 0, x + 50, 80, pen=Pen(BLACK, 1.0), fill=WHITE) for x in (0, 50)]
+    marks = (lawn, *paths, *rooms)
+
+    assert not interpret(Sheet(marks)).sketch.solids
+    assert {"bath", "hall"} <= {cell.label for cell in graph_of(marks).cells}
+
+
 @pytest.mark.parametrize("furniture", [{"color": RED}, {"dashed": True}])
 def test_small_things_in_a_color_or_dashed_are_no_walls(furniture):
     table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), **furniture)
@@ -96,6 +106,20 @@ def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_roo
     assert are_joined((*WITH_GAP, *threshold, table))
     assert [Role.FURNITURE] * 3 == [meaning.role for meaning in understood.meanings[-3:]]
     assert not are_joined((OUTSIDE, partition))
+
+
+def test_thin_lines_are_furniture_too_where_the_thick_walls_are_open_at_wide_windows():
+    below = [stroke((0, 20), (0, 0), (10, 0)), stroke((40, 0), (60, 0)), stroke((90, 0), (100, 0))]
+    walls = (*below, stroke((100, 0), (100, 80), (0, 80), (0, 60)), *WITH_GAP[1:])
+    ends = (((10, 0), (40, 0)), ((60, 0), (90, 0)), ((0, 20), (0, 60)))
+    panes = [stroke(start, end, width=0.1) for start, end in ends]
+    table = stroke((20, 20), (28, 20), (28, 26), (20, 26), (20, 20), width=0.1)
+
+    understood = interpret(Sheet((*walls, *panes, table)))
+
+    assert Role.FURNITURE is understood.meanings[-1].role
+    assert [Role.WALL] * 3 == [meaning.role for meaning in understood.meanings[-4:-1]]
+    assert are_joined((*walls, *panes, table))
 
 
 def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_around_it():

@@ -1,5 +1,7 @@
 """Paper, letters, names of layers, and words."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,19 @@ def test_white_lines_without_any_ground_are_drawn_for_a_dark_one():
 
     assert are_joined(light)
     assert are_joined((*WITH_GAP, stroke((0, 40), (100, 40), color=WHITE)))
+
+
+@pytest.mark.parametrize(("size", "joined"), [(4.0, True), (30.0, False)])
+def test_white_lines_are_drawn_for_a_dark_ground_though_small_things_have_a_color(size, joined):
+    walls = [replace(mark, pen=Pen(WHITE, 1.0)) for mark in WITH_GAP]
+    lamp = box(20, 20, 20 + size, 20 + size, fill=(0.3, 0.3, 0.3))
+
+    found = {cell.label for cell in graph_of((*walls, lamp)).cells} if joined else set()
+
+    assert ({"bath", "hall"} <= found) is joined
+    assert (
+        Role.WALL in {meaning.role for meaning in interpret(Sheet((*walls, lamp))).meanings[:3]}
+    ) is joined
 
 
 def test_a_colored_rectangle_on_a_part_of_the_page_is_no_paper():
@@ -96,13 +111,14 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("A-Beams", Role.IGNORE),
         ("Außenwand", Role.WALL),
         ("seuils", Role.DOOR),
+        ("sheet-border", Role.IGNORE),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):
     assert (role, f"its name is {name!r}") == guessed_role([name])
 
 
-@pytest.mark.parametrize("name", ["Layer 1", "0", "g1234", "wallaby", ""])
+@pytest.mark.parametrize("name", ["Layer 1", "0", "g1234", "wallaby", "", "room-fill room-border"])
 def test_names_that_say_nothing_tell_no_role(name):
     assert guessed_role([name]) is None
 
@@ -148,3 +164,29 @@ def test_a_title_and_a_small_word_below_it_are_two_names():
     texts = [Text("KITCHEN", (0.0, 0.0), 6.0), Text("tiled", (0.0, -6.0), 3.0)]
 
     assert ["KITCHEN", "tiled"] == [name.words for name in find_names(list(enumerate(texts)))]
+
+
+@pytest.mark.parametrize(
+    ("lines", "names"),
+    [
+        (("Reception", "الاستقبال", "रिसेप्शन"), ["Reception", "الاستقبال", "रिसेप्शन"]),
+        (("Main", "hall — الممر"), ["Main hall — الممر"]),
+        (("会議室", "エー", "B"), ["会議室 エー B"]),
+    ],
+)
+def test_a_line_in_another_script_is_a_name_of_its_own(lines, names):
+    texts = [Text(line, (0.0, -4.0 * place), 3.0) for place, line in enumerate(lines)]
+
+    assert names == [name.words for name in find_names(list(enumerate(texts)))]
+
+
+def test_what_is_written_at_a_door_names_no_room_unless_a_person_says_so():
+    texts = (
+        Text("Hall", (20.0, 20.0), 3.0),
+        Text("Front door", (40.0, 5.0), 3.0),
+        Text("Red door", (60.0, 30.0), 3.0, names=("label",)),
+    )
+
+    labels = interpret(Sheet(WITH_GAP, texts)).sketch.labels
+
+    assert ["Hall", "Red door"] == [label.text for label in labels]

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from pilotage.errors import FileError
+from pilotage.interpretation import interpret
 from pilotage.io.indoor import read_geojson, read_imdf, read_osm
+from pilotage.maps.cells.decomposition import DecompositionSettings, divide
 from shared_data import VECTOR, needs_vector
 
 METRE = math.degrees(1.0 / 6_371_008.8)
@@ -173,3 +175,50 @@ def test_a_house_is_the_same_in_both_formats(name):
     sheet = (read_osm if name.endswith("osm") else read_geojson)(VECTOR / name)
     assert {text.text for text in sheet.texts} == {"kid room", "parent room"}
     assert length(sheet) == pytest.approx(68.2, abs=0.5)
+
+
+def moved(points, right):
+    return [(x + right, y) for x, y in points]
+
+
+def joined(sheet):
+    """Names of the rooms that gateways join."""
+    graph = divide(interpret(sheet).sketch, DecompositionSettings()).graph
+    labels = {cell.cell_id: cell.label for cell in graph.cells}
+    return {frozenset(labels[cell] for cell in gateway.cell_ids) for gateway in graph.gateways}
+
+
+@pytest.mark.parametrize("far", [20, 300])
+def test_doors_are_gateways_however_large_the_site_is(tmp_path, far):
+    rooms = (
+        feature(BOX, indoor="room", name="a"),
+        feature(NEXT, indoor="room", name="b"),
+        feature(moved(BOX, far), indoor="room", name="c"),
+        feature(moved(NEXT, far), indoor="room", name="d"),
+    )
+    doors = (
+        feature([(4, 1), (4, 1.8)], "LineString", feature_type="opening"),
+        feature([(4 + far, 1.5)], "Point", door="yes"),
+    )
+    assert joined(read(tmp_path, *rooms, *doors)) == {frozenset("ab"), frozenset("cd")}
+
+
+def test_a_door_as_wide_as_the_wall_parts_two_rooms(tmp_path):
+    rooms = (feature(BOX, indoor="room", name="a"), feature(NEXT, indoor="room", name="b"))
+    door = feature([(4, 0.01), (4, 2.99)], "LineString", feature_type="opening")
+    assert joined(read(tmp_path, *rooms, door)) == {frozenset("ab")}
+
+
+def test_stairs_with_a_door_are_a_room(tmp_path):
+    rooms = (
+        feature(BOX, indoor="room", name="a"),
+        feature(NEXT, feature_type="unit", category="stairs", name="up"),
+    )
+    door = feature([(4, 1), (4, 2)], "LineString", feature_type="opening")
+    assert joined(read(tmp_path, *rooms, door)) == {frozenset(("a", "up"))}
+
+
+def test_walls_of_neighbors_that_hardly_miss_are_one(tmp_path):
+    beside = [(4.008, 0), (8, 0.004), (8, 3), (4.006, 3), (4.008, 0)]
+    sheet = read(tmp_path, feature(BOX, indoor="room"), feature(beside, indoor="room"))
+    assert length(sheet) == pytest.approx(3 * 3 + 4 * 4, abs=0.05)

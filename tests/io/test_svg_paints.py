@@ -10,6 +10,7 @@ SERVERS = """<defs>
 <pattern id="wood"><g><rect width="9" height="9" class="ground"/></g>
 <path d="M0 0H9" fill="#000"/></pattern>
 <pattern id="hatch"><path d="M0 0L9 9" stroke="#102030" fill="none"/></pattern>
+<pattern id="boards"><path d="M0 6H12M-1,1 l2-2" stroke="#C0B0A0"/><line y2="6" stroke="#000"/></pattern>
 <linearGradient id="glint"><stop stop-color="#fff"/><stop stop-opacity="0"/></linearGradient>
 <pattern id="round" href="#round"/><linearGradient id="bare"/>
 </defs><style>:root { --pale: #EEDDCC; --floor: var(--pale) } .ground { fill: var(--floor) }</style>"""
@@ -32,6 +33,7 @@ def channels(color):
         ("url('#again')", (128, 128, 128)),
         ("url(#wood)", (238, 221, 204)),
         ("url(#hatch)", (16, 32, 48)),
+        ("url(#boards)", (192, 176, 160)),
         ("url(#nowhere) #0000ff", (0, 0, 255)),
         ("url(#round) #0000ff", (0, 0, 255)),
         ("url(#nowhere)", (0, 0, 0)),

@@ -80,6 +80,7 @@ def carried_sketch(sketch: SchematicMap, elastic: ElasticMap) -> SchematicMap:
         metres_per_unit=1.0,
         zones=Zones(*(carried_lines(lines, elastic) for lines in sketch.zones.lines)),
         doors=carried_lines(sketch.doors, elastic),
+        openings=carried_lines(sketch.openings, elastic),
     )
 
 

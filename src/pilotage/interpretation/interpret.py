@@ -20,9 +20,10 @@ from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.signs import find_signs
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.walls import Walls, find_walls, rings_of
-from pilotage.interpretation.words import find_names
+from pilotage.interpretation.words import find_names, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
 
@@ -81,7 +82,8 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
     built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
     measuring = find_dimensions(sheet, built, guessed, diagonal)
-    built = [mark for mark in built if mark.number not in measuring]
+    signs, written = find_signs(sheet, [mark for mark in built if mark.number not in guessed], diagonal)
+    built = [mark for mark in built if mark.number not in measuring | signs]
     doors = find_doors(sheet, built, diagonal)
     called_doors = {number for number, (role, _) in guessed.items() if role is Role.DOOR}
     bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
@@ -115,7 +117,11 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     )
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
-    text_roles = [told_role(text.names, layers) or (Role.LABEL, "words") for text in sheet.texts]
+    text_roles = [
+        told_role(text.names, layers)
+        or ((Role.IGNORE, "the north of a compass") if number in written else role_of_words(text.text))
+        for number, text in enumerate(sheet.texts)
+    ]
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
     names = find_names([(number, sheet.texts[number]) for number in spoken])
     labels = tuple(Label(name.words, name.position) for name in names)
@@ -138,6 +144,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
             *opened_halves(halves),
             *opened_dashed(sheet, sorted(dashed)),
         ),
+        openings=sheet.openings,
     )
     meanings = find_meanings(
         sheet,
@@ -149,6 +156,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
                 **dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
                 **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in halves},
                 **dict.fromkeys(measuring, Meaning(Role.IGNORE, "a dimension line")),
+                **dict.fromkeys(signs, Meaning(Role.IGNORE, "a disc in a color of its own, or a compass")),
                 **named,
             },
             built,

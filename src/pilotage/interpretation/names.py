@@ -75,6 +75,10 @@ VOCABULARY: Mapping[Role, str] = {
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 
+EDGES = frozenset(("border", "frame"))
+SPACES = frozenset(("room", "rooms", "raum", "räume", "zimmer", "pièce", "salle", "stanza", "sala", "kamer"))
+"""The border of a room is its wall, that of a sheet is none."""
+
 MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
 
 HEADS = (
@@ -134,8 +138,10 @@ def told_role(names: Sequence[str], layers: Mapping[str, Role]) -> tuple[Role, s
 def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
     """Guess a role by what people call their layers, the innermost name first."""
     for name in reversed(names):
-        for word in name_words(name):
-            if (role := meaning_of(word)) is not None:
+        words = name_words(name)
+        of_room = not SPACES.isdisjoint(words)
+        for word in words:
+            if (role := meaning_of(word)) is not None and not (of_room and word in EDGES):
                 return role, f"its name is {name!r}"
     return None
 

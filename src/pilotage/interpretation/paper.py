@@ -18,6 +18,9 @@ FAINT = 0.1
 SAME = 0.02
 """Colors that differ by less than this in every channel are one color."""
 
+SMALL = 0.1
+"""What is no longer than this share of a drawing in white is a thing in it, and does not tell its ground."""
+
 COVERING = 0.999
 """A rectangle covers the page if it hides this share of it: exporters round."""
 
@@ -34,7 +37,8 @@ def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
     """Find sheets of paper among the marks drawn: rectangles, filled but without a line, below all else.
 
     A sheet covers the whole page, or is white or of the color of the ground and holds all else; a colored
-    rectangle on a part of the page is a building. White lines without any sheet are drawn for a dark one.
+    rectangle on a part of the page is a building. White lines without any sheet are drawn for a dark one,
+    also if lamps and other small things in a color stand among them.
     """
     sheets: list[int] = []
     ground = sheet.background
@@ -48,12 +52,26 @@ def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
             break
         sheets.append(number)
         ground = mark.fill if covering else ground
-    paints = [sheet.marks[number] for number in drawn if number not in sheets]
-    lines = [mark.pen.color for mark in paints if mark.pen is not None]
-    areas = [mark.fill for mark in paints if mark.fill is not None]
-    if lines and all(difference(color, WHITE) < FAINT for color in (ground, *lines, *areas)):
-        ground = BLACK
+    drawing = [number for number in drawn if number not in sheets]
+    if difference(ground, WHITE) < FAINT and any(sheet.marks[number].pen is not None for number in drawing):
+        white = [number for number in drawing if is_white(sheet.marks[number])]
+        others = [size_of([bounds[number]]) for number in set(drawing) - set(white)]
+        few = len(others) < len(white)
+        if few and max(others, default=0.0) <= SMALL * size_of([bounds[number] for number in white]):
+            ground = BLACK
     return Paper(tuple(sheets), ground)
+
+
+def is_white(mark: Mark) -> bool:
+    """Tell whether all paint of a mark is nearly white."""
+    paints = (mark.fill, None if mark.pen is None else mark.pen.color)
+    return all(difference(color, WHITE) < FAINT for color in paints if color is not None)
+
+
+def size_of(boxes: Sequence[Bounds]) -> float:
+    """Return the length of the diagonal of what holds boxes."""
+    left, bottom, right, top = zip(*boxes, strict=True)
+    return math.hypot(max(right) - min(left), max(top) - min(bottom))
 
 
 def difference(first: Color, second: Color) -> float:

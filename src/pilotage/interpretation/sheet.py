@@ -81,4 +81,5 @@ class Sheet:
     y_down: bool = False  # whether the y axis of the source file points down
     source: str = ""  # path of the file
     photo_from_sheet: Homography | None = None  # to the photo that was straightened, y up in both
+    openings: tuple[Polyline, ...] = ()  # doors that the file itself tells, from jamb to jamb
     left_out: tuple[str, ...] = ()  # what the reader could not read, in words: "2 embedded pictures"

@@ -20,6 +20,9 @@ SLENDER = 4.0
 SECOND = 0.3
 """A second color or thickness is of walls, too, if so much wall has it, as a share of the first one's."""
 
+OPEN = 0.5
+"""Of a wall less than this share is thicker than walls are."""
+
 PANEL = 0.5
 """What is painted thinner than this share of most walls, in a color of its own, may be a sliding door."""
 
@@ -74,6 +77,7 @@ def dark_areas(
 ) -> tuple[set[Color], set[Color]]:
     """Find the colors in which walls are painted: long and thin, and unlike the ground; and which are thin.
 
+    A lawn is not, though beds and paths leave little of it, nor is a floor between its furniture.
     Thin are those in which walls are painted far thinner than in the color of most: sliding doors and panes
     are painted so, too.
     """
@@ -83,6 +87,7 @@ def dark_areas(
         same = shapely.union_all([area for area, other in areas if other == color])
         length, thick = measured_walls(same)
         slender = (thick < THICKEST * diagonal) & (length > SLENDER * thick)
+        slender[slender] = open_shares(parts_of(same)[slender], THICKEST * diagonal) < OPEN
         lengths[color] = float(length[slender].sum())
         thicknesses[color] = float(thick[slender] @ length[slender]) / max(lengths[color], 1e-12)
     longest = max(lengths.values(), default=0.0)
@@ -98,6 +103,13 @@ def measured_walls(solid: shapely.Geometry) -> tuple[Array, Array]:
     parts = parts_of(solid)
     length = shapely.length(parts) / 2.0
     return length, shapely.area(parts) / np.where(length > 0.0, length, 1.0)
+
+
+def open_shares(parts: NDArray[np.object_], thickness: float) -> Array:
+    """Tell which shares of areas are thicker than this, (n,)."""
+    inner = shapely.buffer(parts, -thickness / 2.0, join_style="mitre")
+    opened = shapely.buffer(inner, thickness / 2.0, join_style="mitre")
+    return np.asarray(shapely.area(opened) / shapely.area(parts))
 
 
 def painted_thickness(solid: shapely.Geometry) -> float:

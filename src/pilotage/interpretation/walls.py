@@ -42,7 +42,7 @@ USUAL_DOOR = 0.03
 """Width of a door where none is drawn, as a share of the drawing's diagonal."""
 
 NEARLY_ALL = 0.9
-"""Black lines alone are the walls if they enclose this share of what all lines enclose."""
+"""Black lines, with the panes of windows in them, are the walls if they enclose this share of what all do."""
 
 SHUT = 0.25
 """What is drawn in place of a door is thicker than what it encloses by this share of a wall's thickness."""
@@ -238,18 +238,22 @@ def black_lines(drawn: Drawn) -> Walls | None:
     everything = enclosed(NOTHING, drawn.lines, gap)
     if everything == 0.0:
         return None
-    ways = ((1.0, NEARLY_ALL), GLAZED)
-    if not any(enclosed(NOTHING, drawn.main, wide * gap) >= share * everything for wide, share in ways):
-        return None
     edge = EDGE * drawn.diagonal
     main = shapely.union_all(drawn.main)
     body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
     others = shapely.difference(shapely.union_all(drawn.marginal), body)
     width = drawn.door_width or USUAL_DOOR * drawn.diagonal
+    near = shapely.buffer(body, TOUCHING * width)
+    lines = [part for part in parts_of(shapely.line_merge(others)) if part.geom_type == "LineString"]
+    bridges = [part for part in lines if near.covers(shapely.boundary(part))]
+    glazed = shapely.union_all([main, *(part for part in bridges if not part.is_closed)])
+    ways = ((drawn.main, 1.0, NEARLY_ALL), (drawn.main, *GLAZED), (glazed, 1.0, NEARLY_ALL))
+    if not any(
+        enclosed(NOTHING, enclosing, wide * gap) >= share * everything for enclosing, wide, share in ways
+    ):
+        return None
     parting = find_partitions(others, body, drawn.doors, width)
     widest = max(WIDEST * width, gap)
-    near = shapely.buffer(body, TOUCHING * width)
-    bridges = [part for part in parts_of(shapely.line_merge(others)) if near.covers(shapely.boundary(part))]
     within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
     shapely.prepare(within)
     outer = [part for part in bridges if not part.is_closed and not within.contains(part)]

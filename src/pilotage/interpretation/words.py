@@ -2,18 +2,23 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.interpretation.sheet import Text
+from pilotage.interpretation.names import meaning_of, name_words
+from pilotage.interpretation.sheet import Role, Text
 
 LEADING = 2.1
 """Lines of one name are no farther apart than so many heights of their letters."""
 
 GLYPH_WIDTH = 0.5
 """Mean width of a letter in heights of a line."""
+
+EAST_ASIAN = {"CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "HANGUL", "FULLWIDTH", "HALFWIDTH"}
+"""First words of the names of letters that are written side by side."""
 
 ALIKE = 1.35
 """Lines of one name differ in height by no more than this factor."""
@@ -67,6 +72,18 @@ def is_measure(words: str) -> bool:
     return has_number and has_unit and all(word in UNITS for word in letters)
 
 
+def role_of_words(words: str) -> tuple[Role, str]:
+    """Tell names of places from what is written at doors and windows: its last word is one for them.
+
+    >>> [role_of_words(words)[0].value for words in ("Front door", "Badtür (60 cm)", "Outdoor", "Door 2 bar")]
+    ['ignore', 'ignore', 'label', 'label']
+    """
+    spoken = [word for word in name_words(re.sub(r"\(.*?\)", " ", words)) if word not in UNITS]
+    if spoken and meaning_of(spoken[-1]) in (Role.DOOR, Role.WINDOW):
+        return Role.IGNORE, "the name of a door or a window"
+    return Role.LABEL, "words"
+
+
 def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
     """Join the lines of each name, the upper first; words without a letter, and measures, are left out."""
     kept = [
@@ -100,8 +117,10 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
 
 
 def step_down(upper: Text, lower: Text) -> float | None:
-    """Measure from one line to the next of the same name; None if it is none."""
+    """Measure from one line to the next of the same name; None if it is none, as a translation is."""
     height = max(upper.height, lower.height)
+    if (above := scripts(upper.text)) and (below := scripts(lower.text)) and not above & below:
+        return None
     if min(upper.height, lower.height) <= 0.0 or height > ALIKE * min(upper.height, lower.height):
         return None
     if abs(math.remainder(upper.angle - lower.angle, 2.0 * math.pi)) > 0.1:
@@ -113,3 +132,17 @@ def step_down(upper: Text, lower: Text) -> float | None:
     if not 0.5 * height < down <= LEADING * height or abs(along) > reach:
         return None
     return down
+
+
+def scripts(words: str) -> set[str]:
+    """Name the scripts that words are written in; a letter that stands alone is in any.
+
+    >>> sorted(scripts("Main hall, الممر")), scripts("会議室 A"), scripts("トイレ"), scripts("B 2")
+    (['ARABIC', 'LATIN'], {'CJK'}, {'CJK'}, set())
+    """
+    found = set()
+    for word in words.split():
+        letters = [unicodedata.name(letter, "").partition(" ")[0] for letter in word if letter.isalpha()]
+        written = {"CJK" if script in EAST_ASIAN else script for script in letters}
+        found |= written if len(letters) > 1 or "CJK" in written else set()
+    return found

@@ -39,6 +39,7 @@ class SheetBuilder:
     y_down: bool = False
     marks: list[Mark] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
+    openings: list[Polyline] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
     _vertices: int = 0
     _groups: Iterator[int] = field(default_factory=lambda: count(1))
@@ -84,6 +85,11 @@ class SheetBuilder:
             )
             self._check_size()
 
+    def add_opening(self, line: Polyline | None) -> None:
+        """Add a door that the file tells, a line from jamb to jamb."""
+        if line is not None and np.abs(line.vertices).max() <= FARTHEST:
+            self.openings.append(line)
+
     def leave_out(self, what: str, number: int = 1) -> None:
         """Count what cannot be read; `what` is a plural, such as "embedded pictures"."""
         self.left_out[what] += number
@@ -123,6 +129,7 @@ class SheetBuilder:
             metres_per_unit=metres_per_unit,
             y_down=self.y_down,
             source=str(self.path),
+            openings=tuple(self.openings),
             left_out=left_out + tuple(remarks),
         )
 

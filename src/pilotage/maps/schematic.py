@@ -34,6 +34,7 @@ class SchematicMap:
     zones: Zones = field(default_factory=Zones)  # where not to drive, or only in one way
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
     doors: tuple[Polyline, ...] = ()  # from hinge to latch, where a leaf or its swing is drawn
+    openings: tuple[Polyline, ...] = ()  # doors that the file itself tells, from jamb to jamb
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""
@@ -91,6 +92,7 @@ class SchematicMap:
             solids=tuple(carried(line).reversed() for line in self.solids),
             zones=Zones(*(tuple(map(carried, lines)) for lines in self.zones.lines)),
             doors=tuple(carried(line) for line in self.doors),
+            openings=tuple(carried(line) for line in self.openings),
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),

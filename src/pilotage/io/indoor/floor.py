@@ -30,10 +30,14 @@ REACH = 0.3
 GRID = 0.001
 """Coordinates are rounded to this [m], so that the walls of neighbors coincide."""
 
+WALL_GRID = 0.02
+"""The walls of neighbors that are no farther apart than this are one wall [m]."""
+
 CAPITAL = 0.3
 """Height of a room's name [m]."""
 
 ROOMS = (Kind.ROOM, Kind.CORRIDOR)
+STEPPED = (Kind.STAIRS, Kind.ELEVATOR)
 WALLED = (Kind.ROOM, Kind.CORRIDOR, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
 OPEN = (Kind.CORRIDOR, Kind.AREA)
 SPACES = (Kind.ROOM, Kind.CORRIDOR, Kind.AREA, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
@@ -57,10 +61,12 @@ def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> S
         if not names or not feature.levels or names[chosen] in feature.levels
     ]
     builder = SheetBuilder(path)
-    draw_walls(builder, shown)
+    openings = [opening_of(feature, shape) for feature, shape in shown if feature.kind is Kind.OPENING]
+    draw_walls(builder, shown, openings, WALL_GRID if metres else None)
     for feature, shape in shown:
         with builder.surviving("damaged features"):
-            draw(builder, feature, shape)
+            is_entered = feature.kind in STEPPED and any(shape.intersects(opening) for opening in openings)
+            draw(builder, feature, shape, is_room=is_entered)
     return builder.build(
         metres_per_unit=metres, remarks=other_pages(names, chosen, path, kind="level") if names else ()
     )
@@ -91,23 +97,35 @@ def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry
     return moved, 1.0
 
 
-def draw_walls(builder: SheetBuilder, shown: Sequence[tuple[Feature, shapely.Geometry]]) -> None:
-    """Draw the walls of all rooms, each once, open at doors and between corridors."""
+def opening_of(feature: Feature, shape: shapely.Geometry) -> shapely.Geometry:
+    """Return the area within which a door opens walls."""
+    if shape.geom_type == "Point":
+        return shapely.buffer(shape, (feature.width or DOOR_WIDTH) / 2.0)
+    return shapely.buffer(shape, REACH, cap_style="flat")
+
+
+def draw_walls(
+    builder: SheetBuilder,
+    shown: Sequence[tuple[Feature, shapely.Geometry]],
+    openings: Sequence[shapely.Geometry],
+    grid: float | None,
+) -> None:
+    """Draw the walls of all rooms, each once, open at doors and between corridors.
+
+    A door leads from jamb to jamb. Walls that are less than a `grid` [map units] apart are one.
+    """
     walls = [lines_of(shape) for feature, shape in shown if feature.kind in WALLED]
     spaces = [shape for feature, shape in shown if feature.kind in SPACES]
     outer = [lines_of(shape) for feature, shape in shown if feature.kind is Kind.BUILDING]
     if not walls and not outer:
         outer = [lines_of(shape) for shape in spaces]
     passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
-    openings = [
-        shapely.buffer(shape, (feature.width or DOOR_WIDTH) / 2.0)
-        if shape.geom_type == "Point"
-        else shapely.buffer(shape, REACH, cap_style="flat")
-        for feature, shape in shown
-        if feature.kind is Kind.OPENING
-    ]
-    drawn = shapely.union_all([*walls, *outer])
+    drawn = shapely.union_all([*walls, *outer], grid_size=grid)
     drawn = shapely.difference(drawn, shared(passages))
+    for opening in openings:
+        for jambs in shapely.get_parts(shapely.line_merge(shapely.intersection(drawn, opening))):
+            if jambs.geom_type == "LineString":
+                builder.add_opening(outline_through(shapely.get_coordinates(jambs)[[0, -1]]))
     drawn = shapely.difference(drawn, shapely.union_all(openings))
     for part in shapely.get_parts(shapely.line_merge(drawn)):
         if part.geom_type == "LineString" and part.length > 0.0:
@@ -135,12 +153,15 @@ def lines_of(shape: shapely.Geometry) -> shapely.Geometry:
     return shapely.boundary(shape) if shape.geom_type in ("Polygon", "MultiPolygon") else shape
 
 
-def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry) -> None:
-    """Draw what is no wall, and write the name of a feature."""
+def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is_room: bool) -> None:
+    """Draw what is no wall, and write the name of a feature.
+
+    Stairs and lifts with a door are rooms: all that is drawn of them are their walls, open at the door.
+    """
     names = (feature.kind.value,)
     group = (builder.new_group(),)
     is_solid = feature.kind is Kind.COLUMN
-    if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, Kind.STAIRS, Kind.ELEVATOR):
+    if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, *STEPPED) and not is_room:
         for part in shapely.get_parts(shape):
             is_area = part.geom_type == "Polygon"
             builder.add_mark(

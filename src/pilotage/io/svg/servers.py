@@ -13,6 +13,11 @@ from pilotage.io.svg.style import INITIAL, Style, StyleSheet, is_named, leading_
 REFERENCE = re.compile(r"\s*url\(\s*[\"']?#([^\"')]*)[\"']?\s*\)\s*(.*)")
 GRADIENTS = ("linearGradient", "radialGradient")
 
+NUMBER = r"[-+]?[\d.]+"
+POINT = rf"\s*{NUMBER}(?:[\s,]+|(?=[-+])){NUMBER}\s*"
+STRAIGHT = re.compile(rf"\s*(?:[Mm]{POINT}(?:[Ll]{POINT}|[HhVv]\s*{NUMBER}\s*))+")
+"""A path of single lines: it has no area to fill."""
+
 UNKNOWN = "black"
 """The color of what is not known: something is to be seen there."""
 
@@ -93,7 +98,7 @@ def ground_of(
     chain: Sequence[Element], shapes: Sequence[Element], outer: Style, sheet: StyleSheet
 ) -> str | None:
     """Return the first fill of a pattern, upon which all else is drawn; else the color of its lines."""
-    leaves: list[Style] = []
+    leaves: list[tuple[Style, bool]] = []
     waiting = [((*chain, shape), outer) for shape in reversed(shapes)]
     while waiting and len(leaves) < MAX_SHAPES:
         place, above = waiting.pop()
@@ -102,15 +107,22 @@ def ground_of(
         if inner:
             waiting.extend(((*place, child), style) for child in reversed(inner))
         else:
-            leaves.append(style)
+            leaves.append((style, has_area(place[-1])))
     for name in ("fill", "stroke"):
-        for style in leaves:
-            is_shown = style.filled if name == "fill" else style.stroked
+        for style, is_area in leaves:
+            is_shown = is_area and style.filled if name == "fill" else style.stroked
             if is_shown and not REFERENCE.match(style.paint(name)):
                 color = Color(style.paint(name))
                 opacity = leading_number(style.values[f"{name}-opacity"], 1.0) * float(color.opacity or 0.0)
                 return rgba((color.red or 0, color.green or 0, color.blue or 0, opacity * style.opacity))
     return None
+
+
+def has_area(shape: Element) -> bool:
+    """Tell whether there is something to fill: not so for a line, though it may be said to be filled."""
+    if is_named(shape, "path"):
+        return STRAIGHT.fullmatch(shape.get("d", "")) is None
+    return not is_named(shape, "line")
 
 
 def rgba(channels: Sequence[float]) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline, segments_of, signed_area
 from pilotage.maps.cells.drawn_doors import at_doors
-from pilotage.maps.cells.tessellation import Tessellation, tessellate
+from pilotage.maps.cells.tessellation import NO_DOORS, Tessellation, tessellate
 from pilotage.maps.schematic import SchematicMap, diameter_of
 from pilotage.shape.simplify import Simplification, simplify_all
 
@@ -87,6 +87,7 @@ def free_space(sketch: SchematicMap, settings: DecompositionSettings) -> FreeSpa
             diameter,
             replace(settings, gap=min(settings.gap, thickness_of(sketch.solids) / diameter)),
             sketch.doors,
+            segments_of(sketch.openings),
         )
     )
     if sketch.solids:
@@ -149,16 +150,21 @@ def within_strokes(
     diameter: float,
     settings: DecompositionSettings,
     doors: Sequence[Polyline] = (),
+    told: Array = NO_DOORS,
 ) -> FreeSpace:
-    """Take what strokes enclose, with openings to the outside, drawn doors and gaps closed."""
+    """Take what strokes enclose, with openings to the outside, drawn doors and gaps closed.
+
+    Doors that are `told` (m, 4) are as narrow as they are, and so are the rooms behind them.
+    """
     walls = segments_of(strokes)
-    framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]))
-    is_open = framed.widths >= settings.gap * diameter
+    framed = tessellate(np.vstack([walls, frame_around(walls, FRAME * diameter)]), told)
+    is_open = (framed.widths >= settings.gap * diameter) | framed.told
     closed = framed.with_chords(is_open)
-    drawn = at_doors(closed, doors)
+    drawn = at_doors(closed, doors) | closed.told
     is_wide = (closed.widths >= settings.outer_opening * diameter) & ~drawn
     outside = find_outside(closed, is_wide)
     slits = closed.reaches < settings.gap * diameter
+    slits[closed.sides[closed.told].ravel()] = False
     return FreeSpace(closed, ~outside & ~slits, outside, drawn, framed.chords[~is_open])
 
 

@@ -32,6 +32,9 @@ CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
 """A corridor leads on where its wider side is less than so many times as wide as the opening, and the opening
 less than so many doors wide."""
 
+WITHIN_WALL = 0.5
+"""What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
+
 
 class Regions:
     """Growing regions of pieces, and the chords that lie between each two."""
@@ -53,6 +56,7 @@ class Regions:
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
         self.named: list[bool] = named.tolist()
         self.drawn: list[bool] = drawn.tolist()
+        self.told: list[bool] = tessellation.told.tolist()
         self.beside = neighbors(tessellation) if solids_known else None
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
@@ -63,9 +67,15 @@ class Regions:
     def strength(self, first: int, second: int, total: float, min_area: float) -> float:
         """Tell how much the openings between two regions separate them; below 1 they are merged (4.1).
 
-        What is too small is merged in any case, first with that to which it is most open.
+        What is too small is merged in any case, first with that to which it is most open. Only through a door
+        that the file tells nothing is merged but the space between two outlines of one wall.
         """
         smaller, least = min(self.areas[first], self.areas[second]), min_area * total
+        chords = self.chords_to[first][second]
+        if all(self.told[chord] for chord in chords):
+            width = max(self.widths[chord] for chord in chords)
+            if smaller > WITHIN_WALL * width**2:
+                return np.inf
         separation = self.separation(first, second, smaller)
         if smaller < least and not (self.named[first] and self.named[second]):
             return min(separation, smaller / least)

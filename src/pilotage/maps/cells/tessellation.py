@@ -14,6 +14,8 @@ from pilotage.maps.cells.voronoi import GRID_STEPS, find_voronoi
 STEPS_A_NODE = 4.0
 """How much coarser than the grid of the Voronoi diagram that of the pieces is: its rounding goes away."""
 
+NO_DOORS: Array = np.empty((0, 4))
+
 
 @dataclass(frozen=True, eq=False)
 class Tessellation:
@@ -27,6 +29,7 @@ class Tessellation:
     jambs: Array  # (n,) how much wider free space is just beside each chord, on its narrower side
     behind: Array  # (n,) the same where one is through the wall that it is in
     sides: NDArray[np.int64]  # (n, 2) the pieces left and right of each chord
+    told: NDArray[np.bool_]  # (n,) which chords are doors that the file itself tells
 
     def with_chords(self, kept: NDArray[np.bool_]) -> "Tessellation":
         """Leave the other chords out: what they opened is closed."""
@@ -37,6 +40,7 @@ class Tessellation:
             jambs=self.jambs[kept],
             behind=self.behind[kept],
             sides=self.sides[kept],
+            told=self.told[kept],
         )
 
     def connected(self, among: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -53,9 +57,12 @@ class Tessellation:
         return parts
 
 
-def tessellate(walls: Array) -> Tessellation:
-    """Cut what walls (n, 4) enclose along its chords."""
-    diagram = find_voronoi(walls)  # section 4.1: Voronoi diagram
+def tessellate(walls: Array, doors: Array = NO_DOORS) -> Tessellation:
+    """Cut what walls (n, 4) enclose along its chords, and along doors (m, 4) from jamb to jamb.
+
+    A door is a chord by construction: no other is found as long as it stands closed.
+    """
+    diagram = find_voronoi(np.vstack([walls, doors]))  # section 4.1: Voronoi diagram
     chords = find_chords(diagram)  # section 4.1: narrowings
     step = STEPS_A_NODE * float(np.ptp(walls.reshape(-1, 2), axis=0).max()) / GRID_STEPS
     lines = np.vstack([diagram.segments, chords.segments.reshape(-1, 4)]).reshape(-1, 2, 2)
@@ -63,7 +70,9 @@ def tessellate(walls: Array) -> Tessellation:
     pieces = shapely.orient_polygons(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
     edges, sides = shared_edges(pieces)
     open_edges = ~on_walls(edges, diagram.segments, 2.0 * step)
-    openings, sides = join_edges(edges[open_edges], sides[open_edges], chords.segments)
+    open_edges |= on_walls(edges, doors, 2.0 * step) & ~on_walls(edges, walls, 2.0 * step)
+    cuts = np.concatenate([chords.segments, doors.reshape(-1, 2, 2)])
+    openings, sides, cut = join_edges(edges[open_edges], sides[open_edges], cuts)
     widths = np.hypot(*(openings[:, 1] - openings[:, 0]).T)
     vertices, holders = shapely.STRtree(pieces).query(shapely.points(diagram.vertices), predicate="within")
     reaches = np.zeros(len(pieces))
@@ -71,7 +80,8 @@ def tessellate(walls: Array) -> Tessellation:
     np.maximum.at(reaches, sides.ravel(), np.repeat(widths, 2))
     jambs = find_jambs(openings, diagram.segments)
     behind = find_jambs(openings, diagram.segments, BEHIND)
-    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, behind, sides)
+    told = cut >= len(chords.segments)
+    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, behind, sides, told)
 
 
 def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]:
@@ -91,8 +101,8 @@ def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]
 
 def on_walls(edges: Array, walls: Array, tolerance: float) -> NDArray[np.bool_]:
     """Tell which edges (k, 2, 2) lie on a wall (n, 4)."""
-    if len(edges) == 0:
-        return np.zeros(0, dtype=bool)
+    if len(edges) == 0 or len(walls) == 0:
+        return np.zeros(len(edges), dtype=bool)
     tree = shapely.STRtree(shapely.linestrings(walls.reshape(-1, 2, 2)))
     near, _ = tree.query(shapely.points(edges.mean(axis=1)), predicate="dwithin", distance=tolerance)
     found = np.zeros(len(edges), dtype=bool)
@@ -100,10 +110,15 @@ def on_walls(edges: Array, walls: Array, tolerance: float) -> NDArray[np.bool_]:
     return found
 
 
-def join_edges(edges: Array, sides: NDArray[np.int64], chords: Array) -> tuple[Array, NDArray[np.int64]]:
-    """Join the edges of one chord between the same two pieces: openings (n, 2, 2) and their sides (n, 2)."""
+def join_edges(
+    edges: Array, sides: NDArray[np.int64], chords: Array
+) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+    """Join the edges of one chord between the same two pieces.
+
+    Returns openings (n, 2, 2), their sides (n, 2) and the chord of each (n,).
+    """
     if len(edges) == 0:
-        return np.empty((0, 2, 2)), np.empty((0, 2), dtype=np.int64)
+        return np.empty((0, 2, 2)), np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.int64)
     chord = shapely.STRtree(shapely.linestrings(chords)).nearest(shapely.points(edges.mean(axis=1)))
     start = np.einsum("ki,ki->k", edges[:, 0], edges[:, 1] - edges[:, 0])
     start /= np.hypot(*(edges[:, 1] - edges[:, 0]).T)  # how far along its own direction an edge begins
@@ -112,4 +127,4 @@ def join_edges(edges: Array, sides: NDArray[np.int64], chords: Array) -> tuple[A
     first = np.append(True, (keys[1:] != keys[:-1]).any(axis=1))
     last = np.append(first[1:], True)
     openings = np.stack([edges[order[first], 0], edges[order[last], 1]], axis=1)
-    return openings, sides[order[first]]
+    return openings, sides[order[first]], chord[order[first]]
