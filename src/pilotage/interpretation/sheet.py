@@ -82,3 +82,4 @@ class Sheet:
     source: str = ""  # path of the file
     photo_from_sheet: Homography | None = None  # to the photo that was straightened, y up in both
     left_out: tuple[str, ...] = ()  # what the reader could not read, in words: "2 embedded pictures"
+    unread: tuple[tuple[float, float], ...] = ()  # where something is written that could not be read

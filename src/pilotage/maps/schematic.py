@@ -34,6 +34,7 @@ class SchematicMap:
     zones: Zones = field(default_factory=Zones)  # where not to drive, or only in one way
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
     doors: tuple[Polyline, ...] = ()  # from hinge to latch, where a leaf or its swing is drawn
+    unread: tuple[tuple[float, float], ...] = ()  # where something is written that could not be read
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""
@@ -94,6 +95,7 @@ class SchematicMap:
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),
+            unread=tuple(map(moved, self.unread)),
             photo_from_sketch=Homography.from_matrix(photo.matrix @ mirror.matrix),
         )
 
