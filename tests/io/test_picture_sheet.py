@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
 from pilotage.io import open_map
 from pilotage.io.picture import sheet_of
@@ -66,6 +66,17 @@ def test_words_are_no_walls():
 
     assert pytest.approx(alone, rel=0.01) == length_of(sheet)
     assert any("words" in said for said in sheet.left_out)
+
+
+def test_a_word_that_has_run_together_is_no_wall():
+    picture, pen = paper()
+    room(pen)
+    blur = ImageFilter.GaussianBlur(1.2)
+    alone = length_of(sheet_of(colors_of(picture.filter(blur))))
+    pen.text((400, 400), "Bath", fill=BLACK, font=ImageFont.load_default(16))
+    sheet = sheet_of(colors_of(picture.filter(blur)))
+
+    assert pytest.approx(alone, rel=0.01) == length_of(sheet)
 
 
 @pytest.mark.parametrize(("words", "rooms"), [("store", 3), ("", 2)])

@@ -22,6 +22,9 @@ BOX = 0.93
 BESIDE = 0.8
 """Letters of a word stand within this many of their own sizes of each other."""
 
+NARROW = 4.0
+"""What is curled and stands alone is a word run together if it is lower than so many widths of the pen."""
+
 SPECK = 0.004
 """An island smaller than this share of the diagonal, and than two widths of the pen, is dirt or a dot."""
 
@@ -56,7 +59,7 @@ def find_words(ink: Mask, middle: Mask, pen_width: float) -> Words:
     for index in np.nonzero(joined_up)[0]:
         joined_up[index] = islands[index].area_filled < BOX * sides[index].prod()
     letters = (small & (curl > CURLED)) | joined_up
-    lone = letters & small & (neighbors(boxes, letters) == 0)
+    lone = letters & small & (neighbors(boxes, letters) == 0) & (sides.min(axis=1) > NARROW * pen_width)
     words = letters & ~lone
     middles = (boxes[words, 1::-1] + boxes[words, :1:-1]) / 2.0
     tiny = small & ((areas < BOX * sides.prod(axis=1)) | (sides.min(axis=1) < 2.0 * pen_width))
