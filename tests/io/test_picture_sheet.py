@@ -68,6 +68,16 @@ def test_words_are_no_walls():
     assert any("words" in said for said in sheet.left_out)
 
 
+def test_walls_in_a_color_stay_beside_thin_rings():
+    picture, pen = paper()
+    room(pen, width=9, fill=(82, 192, 242))
+    for left in (1010, 300):
+        pen.ellipse([left, 300, left + 160, 460], outline=(182, 232, 33), width=4)
+    sheet = sheet_of(colors_of(picture))
+
+    assert pytest.approx(2.0 * (800 + 600) + 2.0 * 160 * np.pi, rel=0.03) == length_of(sheet)
+
+
 def test_a_word_that_has_run_together_is_no_wall():
     picture, pen = paper()
     room(pen)
