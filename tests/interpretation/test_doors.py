@@ -5,7 +5,7 @@ import math
 import pytest
 import shapely
 
-from flats import BLACK, OUTSIDE, arc, are_joined, box, graph_of, stroke
+from flats import BLACK, OUTSIDE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
 from pilotage.interpretation.windows import windows
@@ -121,6 +121,13 @@ def test_a_leaf_that_is_drawn_in_the_gap_of_its_wall_is_shut():
     leaf, swing = stroke((52, 76), (52, 64)), arc((52, 76), 12, -90, 0)
 
     assert are_joined((*walls, leaf, swing))
+
+
+def test_a_leaf_in_the_gap_of_a_line_is_shut_if_nothing_lies_beyond_the_open_door():
+    leaf, swing = stroke((50, 30), (50, 42)), arc((50, 30), 12, 0, 90)
+    sketch = interpret(Sheet((*WITH_GAP, leaf, swing))).sketch
+
+    assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[50, 30], [50, 42]]]
 
 
 def test_where_leaves_are_drawn_on_walls_so_they_are_in_corners():

@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 import shapely
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
+from pilotage.io import open_map
 from pilotage.io.picture import sheet_of
 from pilotage.io.picture.arcs import Arc, fit_arc, with_leaf
 from pilotage.io.picture.bars import part_bars
 from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.join import join_straight
+from pilotage.maps import DecompositionSettings, decompose
 
 WHITE, BLACK, BLUE, GREEN = (255, 255, 255), (0, 0, 0), (160, 190, 230), (140, 200, 160)
 
@@ -64,6 +66,42 @@ def test_words_are_no_walls():
 
     assert pytest.approx(alone, rel=0.01) == length_of(sheet)
     assert any("words" in said for said in sheet.left_out)
+
+
+def test_walls_in_a_color_stay_beside_thin_rings():
+    picture, pen = paper()
+    room(pen, width=9, fill=(82, 192, 242))
+    for left in (1010, 300):
+        pen.ellipse([left, 300, left + 160, 460], outline=(182, 232, 33), width=4)
+    sheet = sheet_of(colors_of(picture))
+
+    assert pytest.approx(2.0 * (800 + 600) + 2.0 * 160 * np.pi, rel=0.03) == length_of(sheet)
+
+
+def test_a_word_that_has_run_together_is_no_wall():
+    picture, pen = paper()
+    room(pen)
+    blur = ImageFilter.GaussianBlur(1.2)
+    alone = length_of(sheet_of(colors_of(picture.filter(blur))))
+    pen.text((400, 400), "Bath", fill=BLACK, font=ImageFont.load_default(16))
+    sheet = sheet_of(colors_of(picture.filter(blur)))
+
+    assert pytest.approx(alone, rel=0.01) == length_of(sheet)
+
+
+@pytest.mark.parametrize(("words", "rooms"), [("store", 3), ("", 2)])
+def test_a_closed_room_with_words_is_a_room(tmp_path, words, rooms):
+    picture, pen = paper()
+    room(pen)
+    pen.rectangle([450, 350, 750, 550], outline=BLACK, width=5)
+    for wall in ([(200, 450), (280, 450)], [(380, 450), (450, 450)], [(750, 450), (1000, 450)]):
+        pen.line(wall, fill=BLACK, width=5)
+    pen.text((550, 430), words, fill=BLACK, font=ImageFont.load_default(36))
+    picture.save(tmp_path / "plan.png")
+    sketch = open_map(tmp_path / "plan.png")
+
+    assert rooms == len(decompose(sketch, DecompositionSettings()).cells)
+    assert rooms == len(decompose(sketch.mirrored(), DecompositionSettings()).cells)
 
 
 @pytest.mark.parametrize("squared", [False, True])

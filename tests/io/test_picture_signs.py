@@ -103,3 +103,14 @@ def test_arrows_in_a_color_are_no_walls_but_walls_in_a_color_are():
 
     assert both[0] == both[1] > 0
     assert sheet_of(np.asarray(colored, dtype=np.float32) / np.float32(255.0)).marks
+
+
+def test_a_sign_with_a_frame_of_its_own_is_no_wall():
+    picture = Image.new("RGB", (1200, 900), (255, 255, 255))
+    pen = ImageDraw.Draw(picture)
+    pen.rectangle([560, 440, 640, 460], fill=GREEN, outline=(0, 0, 0))
+    for wall in ([200, 445, 558, 455], [642, 445, 1000, 455]):  # both end a pixel before the frame
+        pen.rectangle(wall, fill=(15, 18, 18))
+    colors = np.asarray(picture, dtype=np.float32) / np.float32(255.0)
+
+    assert (black(uncovered(colors)) & ~black(colors)).sum() <= 81 * 21

@@ -60,6 +60,20 @@ def test_filled_plans_of_any_shading_show_the_same_rooms(tmp_path, ground, wall,
     assert 1 == len(graph.gateways)
 
 
+@pytest.mark.parametrize(("ground", "wall"), [(255, DARK), (DARK, 255)])
+def test_thick_walls_are_no_free_space(tmp_path, ground, wall):
+    pixels = np.full((400, 600), ground)
+    pixels[20:380, 20:580] = wall
+    pixels[36:364, 36:292] = pixels[36:364, 308:564] = ground
+    pixels[160:230, 292:308] = ground
+    path = saved(tmp_path / "plan.png", pixels)
+    graph = decompose(open_map(path), DecompositionSettings())
+
+    assert Shading.LINES is recognize(read_picture(path))
+    assert 2 == len(graph.cells)
+    assert 1 == len(graph.gateways)
+
+
 def test_free_space_lies_left_of_the_contours(tmp_path):
     pixels = np.full((60, 60), DARK)
     pixels[10:50, 10:50] = 255

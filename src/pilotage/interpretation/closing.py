@@ -37,7 +37,10 @@ def closings(judged: Sequence[Sides], segments: Segments) -> list[Array]:
 
 
 def is_shut(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segments) -> bool | None:
-    """Tell whether the one leaf of a door is drawn in its wall; None if it is no matter, or may be both."""
+    """Tell whether the one leaf of a door is drawn in its wall; None if it is no matter, or may be both.
+
+    It is, too, if it fills a gap between two ends of a wall and nothing lies before or behind the open door.
+    """
     if arc.sweep < AJAR or leaves.sum() != 1:
         return None
     leaf = int(np.argmax(leaves))
@@ -46,7 +49,7 @@ def is_shut(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segment
         return None
     if through:
         return bool(walls[1 - leaf] < 2.0)
-    return bool(across and walls[leaf] == 2.0)
+    return bool(walls[leaf] == 2.0 and (across or walls[1 - leaf] == 0.0))
 
 
 def closing(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segments, *, shut: bool) -> Array:

@@ -132,6 +132,7 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
         start=start,
         goal=goal,
         labels=labels,
+        unread=sheet.unread,
         solids=tuple(polyline for ring in rings_of(solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,

@@ -83,3 +83,4 @@ class Sheet:
     photo_from_sheet: Homography | None = None  # to the photo that was straightened, y up in both
     openings: tuple[Polyline, ...] = ()  # doors that the file itself tells, from jamb to jamb
     left_out: tuple[str, ...] = ()  # what the reader could not read, in words: "2 embedded pictures"
+    unread: tuple[tuple[float, float], ...] = ()  # where something is written that could not be read

@@ -5,7 +5,8 @@ How the shading is recognized, and nowhere else (`recognize`): by what touches t
 - No color fills the edge: a photo or a scan of a line drawing (`LINES`).
 - The edge is gray and a good part of the picture is lighter: a plan as robots draw it. What is light is free.
 - Otherwise what differs from the edge is ink. Thin ink is the strokes of a pen of any color (`LINES`).
-- Fat ink is free space itself: light on a dark ground (`LIGHT_IS_FREE`) or dark on light (`DARK_IS_FREE`).
+- Fat ink that fills little of what lies within its outermost marks is thick walls (`LINES`).
+- Other fat ink is free space: light on a dark ground (`LIGHT_IS_FREE`) or dark on light (`DARK_IS_FREE`).
 
 `io/picture` reads line drawings. Name a `Shading` to override what is recognized. A picture is read in
 pixels from its upper left corner, y up and so below 0; a resolution that a file claims is never believed.
@@ -40,6 +41,9 @@ FLOOR_SHARE = 0.03
 
 PEN_WIDTH = 0.012
 """Ink of less mean width than this share of the picture's diagonal is a pen's: 12 pixels of 1000."""
+
+SOLID = 0.25
+"""Free space fills at least this share of its convex hull; walls, however thick, fill less."""
 
 STAIR = 1.0
 """How far a contour may move to become straight [pixels]: the steps that pixels make of a slanted wall."""
@@ -147,7 +151,7 @@ def recognize(picture: Picture) -> Shading:
     if DARK < ground < LIGHT and np.mean(shades >= LIGHT) >= FLOOR_SHARE:
         return Shading.LIGHT_IS_FREE
     ink = shades < 1.0 - LIGHT + DARK if ground > DARK else shades >= LIGHT
-    if mean_width(ink) < PEN_WIDTH * picture.diagonal:
+    if mean_width(ink) < PEN_WIDTH * picture.diagonal or share_of_hull(ink) < SOLID:
         return Shading.LINES
     return Shading.DARK_IS_FREE if ground > DARK else Shading.LIGHT_IS_FREE
 
@@ -157,6 +161,15 @@ def mean_width(ink: Mask) -> float:
     padded = np.pad(ink, 1)
     outline = np.count_nonzero(padded[1:] != padded[:-1]) + np.count_nonzero(padded[:, 1:] != padded[:, :-1])
     return 2.0 * float(np.count_nonzero(ink)) / max(float(outline), 1.0)
+
+
+def share_of_hull(ink: Mask) -> float:
+    """Measure the share of their convex hull that marks fill."""
+    rows = np.nonzero(ink.any(axis=1))[0]
+    first, last = ink[rows].argmax(axis=1), ink.shape[1] - ink[rows, ::-1].argmax(axis=1)
+    sides = [np.column_stack([columns, edge]) for columns in (first, last) for edge in (rows, rows + 1)]
+    hull = shapely.convex_hull(shapely.multipoints(np.vstack(sides)))
+    return float(np.count_nonzero(ink) / max(hull.area, 1.0))
 
 
 def from_free_space(free: Mask, path: Path) -> SchematicMap:

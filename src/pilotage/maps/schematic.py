@@ -35,6 +35,7 @@ class SchematicMap:
     photo_from_sketch: Homography | None = None  # to the photo that was straightened, y up in both
     doors: tuple[Polyline, ...] = ()  # from hinge to latch, where a leaf or its swing is drawn
     openings: tuple[Polyline, ...] = ()  # doors that the file itself tells, from jamb to jamb
+    unread: tuple[tuple[float, float], ...] = ()  # where something is written that could not be read
 
     def __post_init__(self) -> None:
         """Reject a drawing without a stroke."""
@@ -96,6 +97,7 @@ class SchematicMap:
             start=self.start and moved(self.start),
             goal=self.goal and moved(self.goal),
             labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),
+            unread=tuple(map(moved, self.unread)),
             photo_from_sketch=Homography.from_matrix(photo.matrix @ mirror.matrix),
         )
 

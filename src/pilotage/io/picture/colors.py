@@ -43,7 +43,11 @@ def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[l
     gray, light = (fat_parts(ink & ~dark & hue, widths.pale) for hue in (~colored, colored))
     drawn = np.count_nonzero(black | gray)
     rest = np.count_nonzero(deep | light)
-    if drawn >= WALLS * (drawn + rest) and (not rest or encloses(ink & dark & ~colored | gray, ink)):
+    if (
+        drawn
+        and drawn >= WALLS * (drawn + rest)
+        and (not rest or encloses(ink & dark & ~colored | gray, ink))
+    ):
         return [gray, black], fat_parts(ink & colored, widths.dark)
     return [gray, light, black, deep], np.zeros_like(ink)
 

@@ -56,15 +56,17 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
     widths = width_at(depth[middle])
     pen_width = float(np.median(widths)) if widths.size else 1.0
     words = find_words(ink.mask, middle, pen_width)
-    drawn = ink.mask & ~words
-    wide = area_widths(width_at(depth[middle & ~words]), pen_width, float(np.hypot(*drawn.shape)))
+    drawn = ink.mask & ~words.mask
+    wide = area_widths(width_at(depth[middle & drawn]), pen_width, float(np.hypot(*drawn.shape)))
     areas, lines = trace(drawn, flat, depth, pen_width, wide)
+    plane = Plane(scale, corner)
     return Sheet(
-        marks_of(areas, lines, Plane(scale, corner)),
+        marks_of(areas, lines, plane),
         y_down=True,
         source=source,
         photo_from_sheet=homography,
-        left_out=left_out(words, ruled=ink.ruled),
+        left_out=left_out(words.mask, ruled=ink.ruled),
+        unread=tuple((x, y) for x, y in plane.points(words.letters).tolist()),
     )
 
 

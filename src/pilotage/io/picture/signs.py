@@ -121,9 +121,11 @@ def ends_at(sign: Mask, black: Mask) -> Iterator[End]:
         places = places[np.hypot(*(places - at).T) < reach]
         offsets = places - places.mean(axis=0)
         spread, axes = np.linalg.eigh(offsets.T @ offsets)
-        along = axes[:, 1] * np.sign(axes[:, 1] @ (at - places.mean(axis=0)))
+        beyond = float(axes[:, 1] @ (at - places.mean(axis=0)))  # 0 if it runs along the sign, or is a corner
+        along = axes[:, 1] * np.sign(beyond)
         if (
-            spread[1] > 2.0 * spread[0]
+            beyond != 0.0
+            and spread[1] > 2.0 * spread[0]
             and share_within(sign, at + EDGE * along, at + 2 * EDGE * along) == 1.0
         ):
             yield End(at, along, float(np.sqrt(12.0 * spread[0] / len(places))))  # of a bar

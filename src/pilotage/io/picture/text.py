@@ -1,5 +1,7 @@
 """Find words in ink: islands of the size of letters, curled as no stroke of a plan is, side by side."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,17 +22,28 @@ BOX = 0.93
 BESIDE = 0.8
 """Letters of a word stand within this many of their own sizes of each other."""
 
+NARROW = 4.0
+"""What is curled and stands alone is a word run together if it is lower than so many widths of the pen."""
+
 SPECK = 0.004
 """An island smaller than this share of the diagonal, and than two widths of the pen, is dirt or a dot."""
 
 
-def find_words(ink: Mask, middle: Mask, pen_width: float) -> Mask:
-    """Mark the ink of words, numbers and specks, given the ink and its middle lines, (height, width)."""
+@dataclass(frozen=True, eq=False)
+class Words:
+    """What is written, which a picture shows but does not tell."""
+
+    mask: Mask  # (height, width) the ink of words, numbers and specks
+    letters: NDArray[np.float64]  # (n, 2) middles of the letters of words, x and y, y down [pixels]
+
+
+def find_words(ink: Mask, middle: Mask, pen_width: float) -> Words:
+    """Find words, numbers and specks, given the ink and its middle lines, (height, width)."""
     from skimage.measure import label, regionprops
 
     rows, columns = np.nonzero(ink)
     if not len(rows):
-        return np.zeros_like(ink)
+        return Words(np.zeros_like(ink), np.empty((0, 2)))
     diagonal = float(np.hypot(np.ptp(rows), np.ptp(columns)))
     labels = label(ink, connectivity=2)
     islands = regionprops(labels)
@@ -46,13 +59,14 @@ def find_words(ink: Mask, middle: Mask, pen_width: float) -> Mask:
     for index in np.nonzero(joined_up)[0]:
         joined_up[index] = islands[index].area_filled < BOX * sides[index].prod()
     letters = (small & (curl > CURLED)) | joined_up
-    lone = letters & small & (neighbors(boxes, letters) == 0)
+    lone = letters & small & (neighbors(boxes, letters) == 0) & (sides.min(axis=1) > NARROW * pen_width)
     words = letters & ~lone
+    middles = (boxes[words, 1::-1] + boxes[words, :1:-1]) / 2.0
     tiny = small & ((areas < BOX * sides.prod(axis=1)) | (sides.min(axis=1) < 2.0 * pen_width))
     for _ in range(2):  # strokes and dots beside letters, and those beside them, as in "ill"
         words |= tiny & (neighbors(boxes, words) > 0)
     words |= size <= max(2.0 * pen_width, SPECK * diagonal)
-    return np.asarray(np.concatenate([[False], words])[labels])
+    return Words(np.asarray(np.concatenate([[False], words])[labels]), middles)
 
 
 def neighbors(boxes: NDArray[np.float64], letters: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -76,9 +76,14 @@ def fat_parts(ink: Mask, width: float) -> Mask:
 
     Where two lines cross they are wide, too, but over no length.
     """
-    from scipy.ndimage import maximum_filter
+    from scipy.ndimage import maximum_filter, minimum_filter
     from skimage.measure import label, regionprops
 
+    within = min(
+        width / 2.0 / np.sqrt(2.0), float(max(ink.shape))
+    )  # half of a square in a disc of this width
+    if not minimum_filter(ink, 2 * int(within) + 1).any():  # most colors are rims: no distances are needed
+        return np.zeros_like(ink)
     core = depth_of(ink) > width / 2.0
     labels = label(core, connectivity=2)
     long = [max(part.image.shape) > width for part in regionprops(labels)]

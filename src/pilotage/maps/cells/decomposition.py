@@ -55,7 +55,8 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     out is too small, open to the outside or solid. Raises NotEnclosedError if nothing is enclosed.
     """
     space = free_space(sketch, settings)
-    named = holds_any(space.tessellation, sketch.labels if sketch.solids else ())
+    written = [label.position for label in sketch.labels]
+    named = holds_any(space.tessellation, written if sketch.solids else [])
     regions = merge_pieces(  # section 4.1: merging
         space.tessellation,
         space.inside,
@@ -67,7 +68,8 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     if sketch.solids:
         regions = join_thresholds(space.tessellation, regions)
         regions = join_corridors(space.tessellation, regions, named, space.drawn)
-    regions = drop_outdoors(space, regions, sketch.labels, solids_known=bool(sketch.solids))
+    titled = holds_any(space.tessellation, [*written, *sketch.unread])
+    regions = drop_outdoors(space, regions, titled, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, named, settings.min_cell_area)
     if not (regions >= 0).any():
         raise NoDoorsError(NO_DOORS)
@@ -79,11 +81,11 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     return Division(space, CellGraph(new_cells(polygons, ids, words), gateways, diameter))
 
 
-def holds_any(tessellation: Tessellation, labels: Sequence[Label]) -> NDArray[np.bool_]:
-    """Tell which pieces hold a label, (p,)."""
+def holds_any(tessellation: Tessellation, places: Sequence[tuple[float, float]]) -> NDArray[np.bool_]:
+    """Tell which pieces hold one of some places, (p,)."""
     found = np.zeros(len(tessellation.pieces), dtype=bool)
-    if labels:
-        points = shapely.points([label.position for label in labels])
+    if places:
+        points = shapely.points(places)
         found[shapely.STRtree(tessellation.pieces).query(points, predicate="intersects")[1]] = True
     return found
 

@@ -7,7 +7,6 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.maps.cells.free_space import FreeSpace
-from pilotage.maps.schematic import Label
 
 YARD_MOUTH, YARD_SHARE = 0.8, 0.12
 """A yard opens to the outside with these shares of its own width and of its outline (decision 0011)."""
@@ -31,16 +30,17 @@ class Openings:
 def drop_outdoors(
     space: FreeSpace,
     regions: NDArray[np.int64],
-    labels: tuple[Label, ...] = (),
+    titled: NDArray[np.bool_],
     *,
     solids_known: bool = False,
 ) -> NDArray[np.int64]:
     """Drop yards and solid blocks among the regions (p,) of pieces: -1.
 
-    A closed region that a label names is a room, and so is each one where solids are known, or where no
-    region has a door: then doors were not drawn at all. A region that opens to the outside alone is a room
-    if it does so by doors, and a label names it or solids are known. What gapes at the outside is a yard only
-    where solids are known: in a sketch the end of a room or corridor is often left open.
+    `titled` tells the pieces (p,) in which something is written. A closed region with words is a room, and so
+    is each one where solids are known, or where no region has a door: then doors were not drawn at all.
+    A region that opens to the outside alone is a room if it does so by doors, and has words or solids are
+    known. What gapes at the outside is a yard only where solids are known: in a sketch the end of a room or
+    corridor is often left open.
     """
     if not space.outside.any():
         return regions
@@ -48,7 +48,7 @@ def drop_outdoors(
     while yards := [
         number
         for number in find_yards(space, kept, gaping=solids_known, apart=is_first)
-        if not ((solids_known or is_named(space, kept == number, labels)) and has_front(space, kept, number))
+        if not ((solids_known or titled[kept == number].any()) and has_front(space, kept, number))
     ]:
         found = np.isin(kept, yards)
         kept, is_first = np.where(found, -1, kept), False  # what lost its yard to the outside stays
@@ -57,15 +57,9 @@ def drop_outdoors(
         space = replace(space, outside=space.outside | found)  # what gapes at a yard is a yard, too
     if solids_known:
         return kept
-    blocks = [number for number in find_blocks(space, kept) if not is_named(space, kept == number, labels)]
+    blocks = [number for number in find_blocks(space, kept) if not titled[kept == number].any()]
     left = np.where(np.isin(kept, blocks), -1, kept)
     return left if (left >= 0).any() else kept
-
-
-def is_named(space: FreeSpace, members: NDArray[np.bool_], labels: tuple[Label, ...]) -> bool:
-    """Tell whether a label stands in a region, given by its pieces (p,)."""
-    points = shapely.points([label.position for label in labels]) if labels else np.empty(0, dtype=object)
-    return any(shapely.intersects(space.tessellation.pieces[members], point).any() for point in points)
 
 
 def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Openings:
