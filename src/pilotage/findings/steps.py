@@ -88,4 +88,4 @@ def next_steps(lines: Array) -> tuple[NDArray[np.intp], Array, NDArray[np.bool_]
     follows &= (np.abs(widths - width) < ALIKE * width) & (beside < ALIKE * width)
     follows &= (ahead > DEPTH[0] * width) & (ahead < DEPTH[1] * width)
     depths = np.where(follows, ahead, np.inf)
-    return depths.argmin(axis=1), depths.min(axis=1), ~follows.any(axis=0)
+    return depths.argmin(axis=1), depths.min(axis=1), np.asarray(~follows.any(axis=0))
