@@ -10,6 +10,7 @@ import shapely
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array
+from pilotage.interpretation.paint import parts_of
 from pilotage.interpretation.sheet import BLACK, Pen, Sheet, Text
 from pilotage.io.indoor.features import Feature, Kind
 from pilotage.io.pages import choose_page, other_pages
@@ -162,7 +163,7 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is
     group = (builder.new_group(),)
     is_solid = feature.kind is Kind.COLUMN
     if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, *STEPPED) and not is_room:
-        for part in shapely.get_parts(shape):
+        for part in parts_of(shape):
             is_area = part.geom_type == "Polygon"
             builder.add_mark(
                 outlines_of_area(part) if is_area else [outline_through(shapely.get_coordinates(part))],

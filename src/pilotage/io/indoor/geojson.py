@@ -101,7 +101,8 @@ def raw_features(collection: Json) -> list[Json]:
         return [collection]
     if kind == "FeatureCollection":
         return objects(collection.get("features"))
-    return [{"type": "Feature", "geometry": collection}] if "coordinates" in collection else []
+    is_geometry = "coordinates" in collection or "geometries" in collection
+    return [{"type": "Feature", "geometry": collection}] if is_geometry else []
 
 
 def imdf_levels(found: list[Json]) -> dict[str, str]:
