@@ -65,9 +65,10 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     nothing on the sheet can be a wall.
     """
     origin = origin_of(sheet)
-    if not origin.any():
-        return interpret_near(sheet, layers)
-    found = interpret_near(moved_sheet(sheet, -origin), layers)
+    with np.errstate(divide="ignore", invalid="ignore"):  # corners that nearly coincide: GEOS sorts them out
+        if not origin.any():
+            return interpret_near(sheet, layers)
+        found = interpret_near(moved_sheet(sheet, -origin), layers)
     return replace(found, sketch=moved_sketch(found.sketch, origin), sheet=sheet)
 
 
