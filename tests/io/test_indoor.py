@@ -233,3 +233,10 @@ def test_a_geometry_collection_is_read_part_by_part(tmp_path):
     }
     path.write_text(json.dumps({"type": "GeometryCollection", "geometries": [line, areas]}))
     assert [len(mark.outlines[0]) for mark in read_geojson(path).marks] == [2, 3, 3]
+
+
+def test_the_width_of_a_door_may_be_in_centimetres(tmp_path):
+    door = feature([(2, 0)], "Point", door="yes", width="90 cm")
+    sheet = read(tmp_path, feature(BOX, indoor="room"), door)
+
+    assert [pytest.approx(0.9, abs=0.01)] == [opening.length for opening in sheet.openings]
