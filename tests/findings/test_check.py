@@ -119,6 +119,12 @@ def test_the_number_of_a_room_beside_its_name_is_no_second_name():
     assert "several-names" not in kinds(replace(GOOD, labels=numbered))
 
 
+def test_a_name_that_is_written_twice_in_a_room_is_one_name():
+    twice = (*NAMES, Label("Corridor", (17.0, 6.0)))
+
+    assert "several-names" not in kinds(replace(GOOD, labels=twice))
+
+
 def test_a_drawing_without_words_says_how_to_name_rooms():
     assert "--label" in kinds(replace(GOOD, labels=()))["no-names"].advice
 
