@@ -1,6 +1,7 @@
 """What `check` says about drawings that are wrong in one way each."""
 
 import json
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage import worlds
 from pilotage.findings import MendKind, Severity, for_ends, report, worst
 from pilotage.findings.doors import suggest_door
+from pilotage.findings.page import join_open_ends
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import Label, SchematicMap
@@ -115,6 +117,12 @@ def test_the_number_of_a_room_beside_its_name_is_no_second_name():
     numbered = (*NAMES[:1], Label("Lab", (15.0, 10.0)), Label("108", (16.0, 9.0)))
 
     assert "several-names" not in kinds(replace(GOOD, labels=numbered))
+
+
+def test_a_name_that_is_written_twice_in_a_room_is_one_name():
+    twice = (*NAMES, Label("Corridor", (17.0, 6.0)))
+
+    assert "several-names" not in kinds(replace(GOOD, labels=twice))
 
 
 def test_a_drawing_without_words_says_how_to_name_rooms():
@@ -252,3 +260,29 @@ def test_a_one_way_arrow_beside_the_door_and_a_goal_where_none_may_drive_are_tol
 
     assert (40.0, 50.0) == pytest.approx(found["idle-arrow"].where)
     assert "the goal lies in a keep-out zone" in found["bad-goal"].text
+
+
+def test_thousands_of_open_ends_are_joined_in_no_time():
+    spots = np.stack(np.meshgrid(np.arange(70.0), np.arange(70.0)), axis=-1).reshape(-1, 2).tolist()
+    ticks = [[(4 * x, 4 * y), (4 * x + 1, 4 * y)] for x, y in spots]
+    start = time.process_time()
+    mend = join_open_ends(drawing(*ticks, [(2, 2), (2, 3.5)]))
+
+    assert mend is not None
+    assert {(2.0, 3.5)} < set(mend.segment)
+    assert time.process_time() - start < 3.0  # [s]; a table of all pairs has gigabytes
+
+
+def test_the_gap_of_a_stroke_around_a_room_is_closed_and_no_straight_stroke_along_itself():
+    around = [(0, 0), (9, 0), (9, 6), (0, 6), (0, 1)]
+    mend = join_open_ends(drawing(around, [(4, 3), (4.5, 3)]))
+
+    assert mend is not None
+    assert {(0.0, 0.0), (0.0, 1.0)} == set(mend.segment)
+
+
+def test_an_end_on_the_middle_of_a_wall_is_not_open():
+    mend = join_open_ends(drawing([(0, 0), (9, 0)], [(4, 0), (4, 2)], [(4, 5), (8, 5)], [(4.5, 0), (4.5, 2)]))
+
+    assert mend is not None
+    assert {(4.0, 2.0), (4.5, 2.0)} == set(mend.segment)

@@ -32,6 +32,23 @@ def test_a_flight_is_one_row_however_it_is_turned_and_in_whatever_order(count, d
     assert set(range(count)) == set(row.tolist())
 
 
+def test_steps_may_be_tilted_a_little_to_either_side():
+    lines = flight(7, turn=np.pi / 2.0)
+    lines[::2, 1, 1] += 0.05
+    lines[1::2, 1, 1] -= 0.05
+    (row,) = rows_of_steps(lines)
+
+    assert set(range(7)) == set(row.tolist())
+
+
+def test_spokes_all_around_are_followed_once():
+    angles = np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)
+    spokes = np.stack([np.cos(angles), np.sin(angles)], axis=1)[:, np.newaxis] * np.array([[20.0], [22.0]])
+    (row,) = rows_of_steps(spokes)
+
+    assert 240 == len(set(row.tolist())) == len(row)
+
+
 @pytest.mark.parametrize(
     "lines",
     [

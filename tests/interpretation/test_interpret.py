@@ -198,3 +198,11 @@ def test_turned_and_mirrored_sheets_are_understood_alike(degrees, flip):
 def test_a_sheet_without_a_line_has_no_walls():
     with pytest.raises(NoWallsError, match="at least one visible stroke"):
         interpret(Sheet((box(0, 0, 1, 1, fill=WHITE),)))
+
+
+def test_corners_of_a_wall_that_nearly_coincide_are_no_matter():
+    panel = box(1, 4, 5, 7, pen=Pen(BLACK, 0.01, dashed=True), fill=RED)
+    zigzag = stroke((6, 5), (7, 6), (3, 5), (1, 8), (8, 5), (6, 3), width=0.0, names=("wall",))
+    sheet = Sheet((box(0, 0, 10, 8, pen=Pen(BLACK, 1.0)), panel, zigzag))
+
+    assert interpret(sheet).sketch.strokes  # and warns of no division by zero

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from flats import LABELS, OUTSIDE, WITH_GAP, arc, box, graph_of, stroke
 from pilotage.geometry import Polyline
 from pilotage.interpretation import BLACK, Pen, Sheet, interpret
+from pilotage.interpretation.origin import origin_of
 from strategies import angles, scales
 
 few = settings(max_examples=15)
@@ -101,3 +102,31 @@ def test_hairlines_are_understood_as_wide_lines_are(width):
     marks = [replace(mark, pen=Pen(BLACK, width)) for mark in WITH_GAP]
 
     assert len(graph_of(WITH_GAP).cells) == len(graph_of(marks).cells)
+
+
+def test_a_drawing_in_coordinates_of_a_survey_is_read_as_if_it_lay_at_the_origin():
+    shift = np.array((512345.0, 5312345.0))
+    turn = np.array([[0.8, -0.6], [0.6, 0.8]]) / 16.0
+    hinge = [stroke((52, 30), (62, 30)), arc((52, 30), 10, 0, 90)]
+    walls = [
+        box(0, 0, 100, 4),
+        box(0, 76, 100, 80),
+        box(0, 0, 4, 80),
+        box(96, 0, 100, 80),
+        box(48, 0, 52, 80),
+    ]
+    marks = [carried(mark, turn, 0.0) for mark in (*(replace(wall, fill=BLACK) for wall in walls), *hinge)]
+    near = [carried(mark, np.eye(2), shift) for mark in marks]
+    origin = origin_of(Sheet(tuple(near)))
+    texts = [
+        replace(text, position=tuple((turn @ text.position + shift).tolist()), height=0.2) for text in LABELS
+    ]
+
+    there = interpret(Sheet(tuple(near), tuple(texts))).sketch
+    here = interpret(Sheet(tuple(carried(mark, np.eye(2), -origin) for mark in near))).sketch
+
+    assert np.abs(origin - shift).max() < 10.0
+    assert len(here.doors) == len(there.doors) == 1
+    for first, second in zip(here.strokes, there.strokes, strict=True):
+        assert (first.vertices + origin).tolist() == second.vertices.tolist()
+    assert [text.position for text in texts] == [label.position for label in there.labels]

@@ -1,5 +1,6 @@
 """Paper, letters, names of layers, and words."""
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -158,6 +159,16 @@ def test_lines_of_words_are_joined_along_any_baseline(angle):
     assert ["Open plan office", "Lobby"] == [name.words for name in names]
     assert (0, 1, 2) == names[0].members
     assert names[0].position == pytest.approx(tuple(down))
+
+
+def test_thousands_of_words_take_no_time():
+    grid = np.stack(np.meshgrid(np.arange(60.0), np.arange(60.0)), axis=-1).reshape(-1, 2)
+    texts = [Text(f"Room {k}", tuple(point), 3.0) for k, point in enumerate((30.0 * grid).tolist())]
+    start = time.process_time()
+    names = find_names(list(enumerate(texts)))
+
+    assert [text.text for text in texts] == [name.words for name in names]
+    assert time.process_time() - start < 3.0  # [s]; pair by pair it is minutes
 
 
 def test_a_title_and_a_small_word_below_it_are_two_names():

@@ -184,3 +184,11 @@ def test_the_plan_of_a_house_has_its_walls_where_the_truth_says():
     sheet = read_drawio(plan("house-drawio.drawio"))
     assert len(sheet.marks) == 110
     assert {"TV Room", "Kitchen", "Double Garage"} <= {text.text for text in sheet.texts}
+
+
+def test_a_property_class_names_a_shape_and_what_it_holds(tmp_path):
+    cell = vertex("x", value="").replace('id="x" ', "")
+    inner = vertex("b", parent="desk")
+    shelf = f'<object class="furniture" label="" id="desk">{cell}</object>'
+    sheet = read(tmp_path, mxfile(("Ground", model(shelf, inner, vertex("c")))))
+    assert [mark.names for mark in sheet.marks] == [("furniture",), ("furniture",), ()]

@@ -227,3 +227,13 @@ def test_damaged_files_are_refused_in_one_line(tmp_path, content):
 def test_plans_of_people_are_read_whole(name, marks, texts):
     sheet = read_dxf(Path(plan(name)))
     assert (len(sheet.marks), len(sheet.texts)) == (marks, texts)
+
+
+def test_attributes_of_a_block_that_are_hidden_name_nothing(document, tmp_path):
+    block = document.blocks.new("TAG")
+    block.add_line((0, 0), (1, 0))
+    block.add_attdef("NAME", (0, 0))
+    block.add_attdef("GUID", (0, 1), dxfattribs={"flags": 1})
+    insert = document.modelspace().add_blockref("TAG", (5, 5))
+    insert.add_auto_attribs({"NAME": "Kitchen", "GUID": "a8f-99x"})
+    assert [text.text for text in read(document, tmp_path).texts] == ["Kitchen"]

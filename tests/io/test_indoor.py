@@ -222,3 +222,21 @@ def test_walls_of_neighbors_that_hardly_miss_are_one(tmp_path):
     beside = [(4.008, 0), (8, 0.004), (8, 3), (4.006, 3), (4.008, 0)]
     sheet = read(tmp_path, feature(BOX, indoor="room"), feature(beside, indoor="room"))
     assert length(sheet) == pytest.approx(3 * 3 + 4 * 4, abs=0.05)
+
+
+def test_a_geometry_collection_is_read_part_by_part(tmp_path):
+    path = tmp_path / "plan.geojson"
+    line = {"type": "LineString", "coordinates": [[0, 0], [500, 0]]}
+    areas = {
+        "type": "MultiPolygon",
+        "coordinates": [[[[x, 9], [x + 9, 9], [x, 18], [x, 9]]] for x in (0, 90)],
+    }
+    path.write_text(json.dumps({"type": "GeometryCollection", "geometries": [line, areas]}))
+    assert [len(mark.outlines[0]) for mark in read_geojson(path).marks] == [2, 3, 3]
+
+
+def test_the_width_of_a_door_may_be_in_centimetres(tmp_path):
+    door = feature([(2, 0)], "Point", door="yes", width="90 cm")
+    sheet = read(tmp_path, feature(BOX, indoor="room"), door)
+
+    assert [pytest.approx(0.9, abs=0.01)] == [opening.length for opening in sheet.openings]

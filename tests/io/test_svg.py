@@ -12,6 +12,7 @@ from svgelements import Matrix
 
 from pilotage.errors import FileError
 from pilotage.io import open_map, open_world
+from pilotage.io.svg import read_svg_sheet
 from pilotage.maps import Label, SchematicMap
 
 
@@ -465,3 +466,21 @@ def test_a_few_elements_that_repeat_each_other_without_end_are_refused(tmp_path)
 
     with pytest.raises(FileError, match="more than 100000 elements"):
         open_map(path)
+
+
+def test_a_symbol_hands_its_style_down_and_is_shown_where_it_is_used(tmp_path):
+    symbol = '<symbol id="w" display="none" fill="none" stroke="red"><rect width="9" height="9"/></symbol>'
+    path = tmp_path / "plan.svg"
+    path.write_text(f'<svg viewBox="0 0 99 99">{symbol}<use href="#w"/></svg>')
+    (mark,) = read_svg_sheet(path).marks
+    assert mark.fill is None
+    assert mark.pen is not None
+    assert mark.pen.color == (1, 0, 0)
+
+
+def test_of_two_elements_with_one_id_the_first_is_used(tmp_path):
+    twins = '<defs><path id="w" d="M0 0H9"/><path id="w" d="M0 0V5"/></defs>'
+    path = tmp_path / "plan.svg"
+    path.write_text(f'<svg viewBox="0 0 99 99">{twins}<use href="#w" stroke="black"/></svg>')
+    (mark,) = read_svg_sheet(path).marks
+    assert mark.outlines[0].vertices.tolist() == [[0, 0], [9, 0]]

@@ -4,9 +4,12 @@ from collections.abc import Iterator
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from pilotage.findings.doors import door_width
 from pilotage.findings.finding import Finding, Mend, MendKind, Severity
+from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation
 from pilotage.maps import CellGraph, SchematicMap
 from pilotage.maps.schematic import diameter_of
@@ -21,7 +24,16 @@ DOORS_M, BUILDINGS_M = (0.4, 5.0), (2.0, 2000.0)
 """Widths of doors and diameters of buildings [m] that there are."""
 
 OPEN_ENDS = 0.25
-"""Open ends of strokes are joined over at most this share of the drawing's diameter."""
+"""Open ends of strokes are joined over at most this share of the drawing's diagonal."""
+
+TOUCH = 1e-3
+"""An end that comes this near to another stroke touches it, as a share of the drawing's diagonal."""
+
+AROUND = 2.0
+"""The two ends of one stroke are joined if it is so many times as long as the way from one to the other."""
+
+NEIGHBORS = 3
+"""The nearest end to an end is the end itself, the next may be the other one of its stroke."""
 
 
 def find_far_strokes(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
@@ -96,17 +108,37 @@ def nothing_enclosed(sketch: SchematicMap, reason: str) -> Finding:
 
 def join_open_ends(sketch: SchematicMap) -> Mend | None:
     """Join the two nearest ends of strokes that touch nothing; None if there are none near each other."""
-    strokes = [stroke for stroke in sketch.strokes if not stroke.closed]
-    ends = np.array([stroke.vertices[end] for stroke in strokes for end in (0, -1)]).reshape(-1, 2)
+    ends, owners = open_ends(sketch)
     if len(ends) < 2:
         return None
-    gaps = np.hypot(*(ends[:, None] - ends[None]).transpose(2, 0, 1))
-    np.fill_diagonal(gaps, np.inf)
-    touch = 1e-3 * sketch.diagonal
-    is_open = gaps.min(axis=1) > touch
-    gaps[~is_open], gaps[:, ~is_open] = np.inf, np.inf
-    first, second = np.unravel_index(gaps.argmin(), gaps.shape)
-    if not gaps[first, second] <= OPEN_ENDS * sketch.diagonal:
+    count = min(NEIGHBORS, len(ends))
+    distances, others = cKDTree(ends).query(ends, count, distance_upper_bound=OPEN_ENDS * sketch.diagonal)
+    lengths = np.array([stroke.length for stroke in sketch.strokes])
+    is_found = np.isfinite(distances)
+    itself = np.arange(len(ends))[:, None]
+    partners = np.where(is_found, others, itself)
+    runs_along = (owners[partners] == owners[:, None]) & (lengths[owners][:, None] < AROUND * distances)
+    distances[~is_found | (partners == itself) | runs_along] = np.inf
+    first, place = np.unravel_index(distances.argmin(), distances.shape)
+    if not np.isfinite(distances[first, place]):
         return None
-    (ax, ay), (bx, by) = ends[first].tolist(), ends[second].tolist()
+    (ax, ay), (bx, by) = ends[first].tolist(), ends[partners[first, place]].tolist()
     return Mend(MendKind.CLOSE, ((ax, ay), (bx, by)), "close this gap?")
+
+
+def open_ends(sketch: SchematicMap) -> tuple[Array, NDArray[np.intp]]:
+    """List the ends (n, 2) of strokes that touch no other end or stroke, and whose they are, (n,)."""
+    owners = np.array([k for k, stroke in enumerate(sketch.strokes) if not stroke.closed], dtype=np.intp)
+    owners = owners.repeat(2)
+    pairs = [stroke.vertices[[0, -1]] for stroke in sketch.strokes if not stroke.closed]
+    ends = np.array(pairs).reshape(-1, 2)
+    points = shapely.points(ends)
+    near = {"predicate": "dwithin", "distance": TOUCH * sketch.diagonal}
+    end, other = shapely.STRtree(points).query(points, **near)
+    point, stroke = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes]).query(
+        points, **near
+    )
+    is_open = np.ones(len(ends), dtype=bool)
+    is_open[end[end != other]] = False
+    is_open[point[stroke != owners[point]]] = False
+    return ends[is_open], owners[is_open]

@@ -200,7 +200,8 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 tuple(cell.cell_id for cell in cells),
             )
     for cell in graph.cells:
-        words = [word for word in cell.label.split(", ") if not word.isdecimal()]  # a room has a number, too
+        names = dict.fromkeys(cell.label.split(", "))  # one that is written twice is one
+        words = [word for word in names if not word.isdecimal()]  # a room has a number, too
         if len(words) > 1:
             yield Finding(
                 "several-names",

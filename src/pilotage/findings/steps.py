@@ -51,29 +51,41 @@ def find_drivable_stairs(graph: CellGraph, interpretation: Interpretation | None
 
 def rows_of_steps(lines: Array) -> list[NDArray[np.intp]]:
     """Find rows of parallel lines (n, 2, 2) that are alike and evenly spaced; each line is in one row."""
+    if not 0 < len(lines) <= MOST_LINES:
+        return []
+    following, depth, is_first = next_steps(np.concatenate([lines, lines[:, ::-1]]))
+    rows: list[NDArray[np.intp]] = []
+    used = np.zeros(len(lines), dtype=bool)
+    for first in np.argsort(~is_first, kind="stable").tolist():
+        row, last = [first % len(lines)], first
+        while depth[last] < EVEN * depth[first] and depth[first] < EVEN * depth[last]:
+            last = int(following[last])
+            if last % len(lines) in row:
+                break  # spokes all around: no end
+            row.append(last % len(lines))
+        if len(row) >= STEPS:
+            if not used[row].any():
+                rows.append(np.array(row))
+            used[row] = True
+    return rows
+
+
+def next_steps(lines: Array) -> tuple[NDArray[np.intp], Array, NDArray[np.bool_]]:
+    """Find for each directed line (n, 2, 2) the nearest that may be the next step, to its right.
+
+    Returns which line it is, how far it is away, infinite if there is none, and whether the line is no step
+    after another, each (n,).
+    """
     along = lines[:, 1] - lines[:, 0]
     widths = np.hypot(along[:, 0], along[:, 1])
-    if not 0 < len(lines) <= MOST_LINES or not widths.any():
-        return []
-    along /= np.maximum(widths, 1e-12)[:, np.newaxis]
-    along[(along[:, 1] < 0.0) | ((along[:, 1] == 0.0) & (along[:, 0] < 0.0))] *= -1.0
+    along /= np.where(widths > 0.0, widths, 1.0)[:, np.newaxis]
     between = lines.mean(axis=1)[np.newaxis] - lines.mean(axis=1)[:, np.newaxis]
     beside = np.abs(np.einsum("ijk,ik->ij", between, along))
     across = along[:, ::-1] * (1.0, -1.0)
     ahead = np.einsum("ijk,ik->ij", between, across)
     width = widths[:, np.newaxis]
-    follows = np.abs(along @ across.T) < math.sin(PARALLEL)
+    follows = (along @ along.T > 0.0) & (np.abs(along @ across.T) < math.sin(PARALLEL))
     follows &= (np.abs(widths - width) < ALIKE * width) & (beside < ALIKE * width)
     follows &= (ahead > DEPTH[0] * width) & (ahead < DEPTH[1] * width)
     depths = np.where(follows, ahead, np.inf)
-    following, depth = depths.argmin(axis=1), depths.min(axis=1)
-    rows: list[NDArray[np.intp]] = []
-    used = np.zeros(len(lines), dtype=bool)
-    for first in np.argsort(follows.any(axis=0), kind="stable"):
-        row = [int(first)]
-        while depth[row[-1]] < EVEN * depth[first] and depth[first] < EVEN * depth[row[-1]]:
-            row.append(int(following[row[-1]]))
-        if len(row) >= STEPS and not used[row].any():
-            rows.append(np.array(row))
-        used[row] |= len(row) >= STEPS
-    return rows
+    return depths.argmin(axis=1), depths.min(axis=1), np.asarray(~follows.any(axis=0))

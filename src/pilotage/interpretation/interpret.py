@@ -1,7 +1,7 @@
 """From a sheet to a drawing of a building: give each mark a role, and build walls and openings from them."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -17,6 +17,7 @@ from pilotage.interpretation.glyphs import find_glyphs
 from pilotage.interpretation.halves import find_halves, opened_halves, without_halves
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.origin import moved_sheet, moved_sketch, origin_of
 from pilotage.interpretation.paint import Seen, look_at, polylines_of
 from pilotage.interpretation.paper import area_of, bounds_of, find_paper
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
@@ -63,6 +64,16 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
     `layers` tells the roles of layers, classes, ids and blocks where guessing fails. Raises NoWallsError if
     nothing on the sheet can be a wall.
     """
+    origin = origin_of(sheet)
+    with np.errstate(divide="ignore", invalid="ignore"):  # corners that nearly coincide: GEOS sorts them out
+        if not origin.any():
+            return interpret_near(sheet, layers)
+        found = interpret_near(moved_sheet(sheet, -origin), layers)
+    return replace(found, sketch=moved_sketch(found.sketch, origin), sheet=sheet)
+
+
+def interpret_near(sheet: Sheet, layers: Mapping[str, Role]) -> Interpretation:
+    """Tell walls from all else on a sheet that is near the origin, as `interpret` does."""
     told = [told_role(mark.names, layers) for mark in sheet.marks]
     closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
     open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]

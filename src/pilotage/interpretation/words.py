@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from pilotage.interpretation.names import meaning_of, name_words
 from pilotage.interpretation.sheet import Role, Text
@@ -92,19 +93,18 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
         if not is_measure(text.text) and not MARK_OF_NOTHING.fullmatch(text.text)
     ]
     following: dict[int, int] = {}
-    for place, (_, upper) in enumerate(kept):
+    taken: set[int] = set()
+    for place, others in enumerate(near_lines([text for _, text in kept])):
         below = [
             (distance, other)
-            for other, (_, lower) in enumerate(kept)
-            if other != place and (distance := step_down(upper, lower)) is not None
+            for other in others
+            if (distance := step_down(kept[place][1], kept[other][1])) is not None
         ]
-        if below:
-            _, nearest = min(below)
-            if nearest not in following.values():
-                following[place] = nearest
-    starts = set(range(len(kept))) - set(following.values())
+        if below and (nearest := min(below)[1]) not in taken:
+            following[place] = nearest
+            taken.add(nearest)
     names = []
-    for start in sorted(starts):
+    for start in sorted(set(range(len(kept))) - taken):
         chain = [start]
         while chain[-1] in following:
             chain.append(following[chain[-1]])
@@ -116,11 +116,25 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
     return names
 
 
+def near_lines(texts: Sequence[Text]) -> list[list[int]]:
+    """List for each line of words the others that are near enough to be of one name with it."""
+    if not texts:
+        return []
+    points = np.array([text.position for text in texts])
+    heights = np.array([text.height for text in texts])
+    letters = np.array([len(text.text) for text in texts])
+    reach = ALIKE * heights * (LEADING + GLYPH_WIDTH * letters) / 2.0  # of two lines, the sum is enough
+    boxes = shapely.box(*np.hstack([points - reach[:, None], points + reach[:, None]]).T)
+    found: list[list[int]] = [[] for _ in texts]
+    for first, second in shapely.STRtree(boxes).query(boxes, predicate="intersects").T.tolist():
+        if first != second:
+            found[first].append(second)
+    return found
+
+
 def step_down(upper: Text, lower: Text) -> float | None:
     """Measure from one line to the next of the same name; None if it is none, as a translation is."""
     height = max(upper.height, lower.height)
-    if (above := scripts(upper.text)) and (below := scripts(lower.text)) and not above & below:
-        return None
     if min(upper.height, lower.height) <= 0.0 or height > ALIKE * min(upper.height, lower.height):
         return None
     if abs(math.remainder(upper.angle - lower.angle, 2.0 * math.pi)) > 0.1:
@@ -131,7 +145,8 @@ def step_down(upper: Text, lower: Text) -> float | None:
     reach = GLYPH_WIDTH * height * (len(upper.text) + len(lower.text)) / 2.0
     if not 0.5 * height < down <= LEADING * height or abs(along) > reach:
         return None
-    return down
+    above, below = scripts(upper.text), scripts(lower.text)
+    return None if above and below and not above & below else down
 
 
 def scripts(words: str) -> set[str]:

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 
 RATIO = re.compile(r"(?<![\d:.])1\s*:\s*(\d{1,4})(?![\d:.])")
 INCHES = re.compile(r"(\d+)(?:\s*/\s*(\d+))?\s*(?:\"|\u201d|''|in)\s*=\s*1\s*(?:'|\u2019|ft)")
+LENGTH = re.compile(r"\s*(\d{1,9}(?:[.,]\d{1,9})?)\s*(mm|cm|m|ft|in)?\b")
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "ft": 0.3048, "in": 0.0254}
 LEAST, MOST = 5, 2000
 """Scales of plans of buildings: 1:5 to 1:2000."""
 
@@ -26,11 +28,11 @@ def find_scale(texts: Iterable[str]) -> float | None:
     return likely[0] if likely else None
 
 
-def first_number(text: str) -> float | None:
-    """Return the number that a text begins with, if it is positive.
+def length_in_metres(text: str) -> float | None:
+    """Return the length that a text tells, in metres if it names no unit; None if it tells none above 0.
 
-    >>> first_number("0.9 m"), first_number("wide")
-    (0.9, None)
+    >>> [length_in_metres(text) for text in ("0.9", "90 cm", "0,9 m", "0", "wide")]
+    [0.9, 0.9, 0.9, None, None]
     """
-    match = re.match(r"\s*(\d{1,9}(?:\.\d{1,9})?)", text)
-    return (float(match[1]) or None) if match else None
+    match = LENGTH.match(text)
+    return float(match[1].replace(",", ".")) * METRES[match[2] or "m"] or None if match else None

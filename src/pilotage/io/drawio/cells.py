@@ -25,6 +25,7 @@ class Cell:
     shown: bool
     geometry: Element | None
     ends: tuple[str, str] = ("", "")  # cells that an edge joins
+    named: str = ""  # the property `class` that a person gave it
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +83,7 @@ def placed(geometry: Element, outer: Box) -> Box:
 
 
 def read_cells(model: Element) -> Cells:
-    """Read all cells of a page; those that a wrapper names bear its id and label."""
+    """Read all cells of a page; those that a wrapper names bear its id, label and class."""
     root = model.find("root")
     found = {} if root is None else {cell.cell_id: cell for cell in cells_of(root)}
     return Cells(found)
@@ -105,6 +106,7 @@ def cells_of(root: Element) -> Iterator[Cell]:
             cell.get("visible") != "0",
             cell.find("mxGeometry"),
             (cell.get("source", ""), cell.get("target", "")),
+            element.get("class", ""),
         )
 
 

@@ -47,7 +47,8 @@ class PageReader:
         holders = self.cells.ancestors(cell)
         if not cell.kind or not all(holder.shown for holder in (*holders, cell)):
             return
-        names = tuple(holder.value for holder in holders if not holder.kind)
+        layers = (holder.value for holder in holders if not holder.kind)
+        names = (*layers, *(holder.named for holder in (*holders, cell)))
         groups = tuple(self.group(holder.cell_id) for holder in holders if holder.kind == "vertex")
         if cell.kind == "edge":
             self.read_edge(cell, names, groups)

@@ -7,7 +7,7 @@ from typing import cast
 
 import numpy as np
 from ezdxf.document import Drawing
-from ezdxf.entities import DXFEntity, DXFGraphic, Insert, MText
+from ezdxf.entities import Attrib, DXFEntity, DXFGraphic, Insert, MText
 from ezdxf.entities import Text as DxfText
 from ezdxf.entities.polygon import DXFPolygon
 from ezdxf.protocols import SupportsVirtualEntities, virtual_entities
@@ -91,7 +91,8 @@ class Walk:
     def read(self, entity: DXFGraphic, place: Place) -> None:
         """Read one entity, if it is shown."""
         kind = entity.dxftype()
-        if kind in INVISIBLE or entity.dxf.get("invisible", 0):
+        is_secret = isinstance(entity, Attrib) and entity.is_invisible  # data that blocks carry along
+        if kind in INVISIBLE or entity.dxf.get("invisible", 0) or is_secret:
             return
         look = self.looks.look(entity, place.look)
         if self.looks.frozen(look.layer) or (kind != "INSERT" and self.looks.hidden(look.layer)):

@@ -10,6 +10,7 @@ import shapely
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array
+from pilotage.interpretation.paint import parts_of
 from pilotage.interpretation.sheet import BLACK, Pen, Sheet, Text
 from pilotage.io.indoor.features import Feature, Kind
 from pilotage.io.pages import choose_page, other_pages
@@ -63,9 +64,10 @@ def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> S
     builder = SheetBuilder(path)
     openings = [opening_of(feature, shape) for feature, shape in shown if feature.kind is Kind.OPENING]
     draw_walls(builder, shown, openings, WALL_GRID if metres else None)
+    doors = shapely.STRtree(openings)
     for feature, shape in shown:
         with builder.surviving("damaged features"):
-            is_entered = feature.kind in STEPPED and any(shape.intersects(opening) for opening in openings)
+            is_entered = feature.kind in STEPPED and len(doors.query(shape, predicate="intersects")) > 0
             draw(builder, feature, shape, is_room=is_entered)
     return builder.build(
         metres_per_unit=metres, remarks=other_pages(names, chosen, path, kind="level") if names else ()
@@ -122,8 +124,11 @@ def draw_walls(
     passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
     drawn = shapely.union_all([*walls, *outer], grid_size=grid)
     drawn = shapely.difference(drawn, shared(passages))
+    lines = np.array([part for part in parts_of(drawn) if part.geom_type == "LineString"], dtype=object)
+    tree = shapely.STRtree(lines)
     for opening in openings:
-        for jambs in shapely.get_parts(shapely.line_merge(shapely.intersection(drawn, opening))):
+        near = shapely.multilinestrings(lines[np.sort(tree.query(opening, predicate="intersects"))])
+        for jambs in shapely.get_parts(shapely.line_merge(shapely.intersection(near, opening))):
             if jambs.geom_type == "LineString":
                 builder.add_opening(outline_through(shapely.get_coordinates(jambs)[[0, -1]]))
     drawn = shapely.difference(drawn, shapely.union_all(openings))
@@ -162,7 +167,7 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is
     group = (builder.new_group(),)
     is_solid = feature.kind is Kind.COLUMN
     if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, *STEPPED) and not is_room:
-        for part in shapely.get_parts(shape):
+        for part in parts_of(shape):
             is_area = part.geom_type == "Polygon"
             builder.add_mark(
                 outlines_of_area(part) if is_area else [outline_through(shapely.get_coordinates(part))],

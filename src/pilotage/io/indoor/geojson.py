@@ -16,7 +16,7 @@ from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.indoor.features import Feature, Kind, kind_of, levels_of
 from pilotage.io.indoor.floor import floor_sheet
 from pilotage.io.json_files import LARGEST, Json, objects, read_json, words
-from pilotage.io.scales import first_number
+from pilotage.io.scales import length_in_metres
 
 IMDF_FILES = ("unit", "opening", "fixture", "kiosk", "level")
 """Files of an IMDF archive that draw something, or name the levels."""
@@ -101,7 +101,8 @@ def raw_features(collection: Json) -> list[Json]:
         return [collection]
     if kind == "FeatureCollection":
         return objects(collection.get("features"))
-    return [{"type": "Feature", "geometry": collection}] if "coordinates" in collection else []
+    is_geometry = "coordinates" in collection or "geometries" in collection
+    return [{"type": "Feature", "geometry": collection}] if is_geometry else []
 
 
 def imdf_levels(found: list[Json]) -> dict[str, str]:
@@ -133,7 +134,7 @@ def read_feature(raw: Json, index: int) -> Feature | None:
         kind,
         levels,
         name,
-        width=first_number(tags.get("width", "")),
+        width=length_in_metres(tags.get("width", "")),
         source=f"feature {raw.get('id', index + 1)}",
     )
 

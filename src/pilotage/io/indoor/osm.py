@@ -11,7 +11,7 @@ from pilotage.interpretation.sheet import Sheet
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.indoor.features import Feature, Kind, kind_of, levels_of
 from pilotage.io.indoor.floor import floor_sheet
-from pilotage.io.scales import first_number
+from pilotage.io.scales import length_in_metres
 
 LARGEST = 100_000_000
 """The largest file that is read [bytes]."""
@@ -53,7 +53,7 @@ def features_of(root: ET.Element) -> Iterator[Feature]:
                 kind,
                 levels_of(tags.get("level", tags.get("repeat_on", ""))),
                 tags.get("name") or tags.get("ref", ""),
-                width=first_number(tags.get("width", tags.get("door:width", ""))),
+                width=length_in_metres(tags.get("width", tags.get("door:width", ""))),
                 source=f"{element.tag} {element.get('id', '')}",
             )
 

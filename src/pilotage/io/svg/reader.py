@@ -12,6 +12,7 @@ import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline, signed_area
+from pilotage.interpretation.paper import holds
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.style import local_name
@@ -168,11 +169,6 @@ def box_of(segment: svgelements.PathSegment) -> Bounds:
             return ends
     box: Bounds = segment.bbox()
     return box
-
-
-def holds(outer: Bounds, inner: Bounds) -> bool:
-    """Tell whether one box lies in another."""
-    return outer[0] <= inner[0] and outer[1] <= inner[1] and outer[2] >= inner[2] and outer[3] >= inner[3]
 
 
 def without_background(walls: Sequence[Shape], page: Viewport | None) -> list[Shape]:

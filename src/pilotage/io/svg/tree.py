@@ -70,7 +70,9 @@ class Place:
 def walk(root: Element) -> Iterator[Drawn]:
     """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
     sheet = StyleSheet.of(root)
-    by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
+    by_id = {
+        element.get("id"): element for element in reversed(list(root.iter())) if element.get("id")
+    }  # the first
     servers = PaintServers(by_id, sheet)
     check_size(root)
     waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
@@ -114,7 +116,7 @@ def walk(root: Element) -> Iterator[Drawn]:
                 here.outlined,
             )
         elif tag == "use":
-            waiting.extend(used(here, by_id))
+            waiting.extend(used(here, by_id, sheet))
         else:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
             children = alternatives(element) if tag == "switch" else list(element)
@@ -159,7 +161,7 @@ def measured(declared: Mapping[str, str], viewport: Viewport) -> Mapping[str, st
     return {**{name: value for name, value in declared.items() if name not in MEASURES}, **lengths}
 
 
-def used(place: Place, by_id: Mapping[str | None, Element]) -> Iterator[Place]:
+def used(place: Place, by_id: Mapping[str | None, Element], sheet: StyleSheet) -> Iterator[Place]:
     """Stand at what a `use` refers to, or nowhere if it is not in this file or holds the `use` itself."""
     use = place.chain[-1]
     target = by_id.get(next((v for n, v in use.attrib.items() if local_name(n) == "href"), "")[1:])
@@ -170,9 +172,12 @@ def used(place: Place, by_id: Mapping[str | None, Element]) -> Iterator[Place]:
     if local_name(target.tag) != "symbol":
         yield replace(there, chain=(*there.chain, target))
         return
+    chain = (*there.chain, target)
+    declared = {**sheet.declared(chain), "display": "inline"}  # a symbol that is used is shown
     symbol = replace(
         there,
-        chain=(*there.chain, target),
+        chain=chain,
+        style=there.style.of_child(declared),
         role=role_of(target, there.role),
         names=there.names + tuple(names_of(target)),
     )
