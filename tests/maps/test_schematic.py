@@ -8,7 +8,7 @@ import shapely
 
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
-from pilotage.maps import DecompositionSettings, decompose
+from pilotage.maps import DecompositionSettings, Label, SchematicMap, decompose
 from pilotage.maps.zones import Zones
 from pilotage.worlds import OFFICE
 
@@ -46,3 +46,23 @@ def test_rooms_keep_their_names_and_places_in_the_file(office):
     assert ana.polygon.area == pytest.approx(mirrored.polygon.area, rel=0.02)
     there = office.mirrored().file_from_sketch(np.array([mirrored.center]))
     assert ana.polygon.covers(shapely.Point(office.sketch_from_file(there)[0]))
+
+
+def test_all_that_is_drawn_and_marked_is_carried():
+    line = Polyline.through([(1.0, 2.0), (3.0, 4.0)])
+    zones = Zones(*((line,) for _ in Zones().lines))
+    sketch = SchematicMap(
+        (line,), (1.0, 1.0), (2.0, 2.0), (Label("hall", (3.0, 3.0)),), solids=(line,), zones=zones,
+        doors=(line,), openings=(line,), unread=((4.0, 4.0),),
+    )  # fmt: skip
+    far = 1000.0
+    carried = sketch.carried(
+        lambda one: Polyline(one.vertices + far, one.closed), lambda one: (one[0] + far, one[1] + far)
+    )
+
+    lines = [*carried.strokes, *carried.solids, *carried.doors, *carried.openings]
+    lines += [one for some in carried.zones.lines for one in some]
+    places = [carried.start, carried.goal, carried.labels[0].position, *carried.unread]
+    assert 4 + len(Zones().lines) == len(lines)
+    assert np.vstack([one.vertices for one in lines]).min() > far
+    assert np.array(places).min() > far

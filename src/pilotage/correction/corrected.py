@@ -1,6 +1,6 @@
 """The corrected drawing as a value."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pilotage.correction.spline import ElasticMap
 from pilotage.correction.walls import Pieces
 from pilotage.geometry import Array, Polyline, frozen_array
-from pilotage.maps import Label, SchematicMap, Zones
+from pilotage.maps import SchematicMap
 
 DETAIL = 0.02
 """[m] by which a line may be off that leaves out a vertex."""
@@ -69,19 +69,8 @@ def carried_sketch(sketch: SchematicMap, elastic: ElasticMap) -> SchematicMap:
         x, y = (elastic @ np.array([place]))[0].tolist()
         return x, y
 
-    return SchematicMap(
-        carried_lines(sketch.strokes, elastic),
-        None if sketch.start is None else point(sketch.start),
-        None if sketch.goal is None else point(sketch.goal),
-        tuple(Label(label.text, point(label.position)) for label in sketch.labels),
-        sketch.source,
-        contours=sketch.contours,
-        solids=carried_lines(sketch.solids, elastic),
-        metres_per_unit=1.0,
-        zones=Zones(*(carried_lines(lines, elastic) for lines in sketch.zones.lines)),
-        doors=carried_lines(sketch.doors, elastic),
-        openings=carried_lines(sketch.openings, elastic),
-    )
+    carried = sketch.carried(lambda line: carried_line(line, elastic), point)
+    return replace(carried, metres_per_unit=1.0, y_down=False, photo_from_sketch=None)
 
 
 def carried_line(line: Polyline, elastic: ElasticMap) -> Polyline:

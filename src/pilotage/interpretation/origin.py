@@ -6,7 +6,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Polyline
 from pilotage.interpretation.sheet import Sheet
-from pilotage.maps import SchematicMap, Zones
+from pilotage.maps import SchematicMap
 
 FAR = 100.0
 """A drawing is far from the origin if it is so many times its own size away: pages and sheets never are."""
@@ -36,23 +36,17 @@ def moved_sheet(sheet: Sheet, shift: Array) -> Sheet:
 
 def moved_sketch(sketch: SchematicMap, shift: Array) -> SchematicMap:
     """Move all that is drawn in a sketch by a step (2,) [drawing units]."""
-    return replace(
-        sketch,
-        strokes=moved_lines(sketch.strokes, shift),
-        start=None if sketch.start is None else moved_point(sketch.start, shift),
-        goal=None if sketch.goal is None else moved_point(sketch.goal, shift),
-        labels=tuple(replace(label, position=moved_point(label.position, shift)) for label in sketch.labels),
-        solids=moved_lines(sketch.solids, shift),
-        zones=Zones(*(moved_lines(lines, shift) for lines in sketch.zones.lines)),
-        doors=moved_lines(sketch.doors, shift),
-        openings=moved_lines(sketch.openings, shift),
-        unread=tuple(moved_point(point, shift) for point in sketch.unread),
-    )
+    return sketch.carried(lambda line: moved_line(line, shift), lambda point: moved_point(point, shift))
 
 
 def moved_lines(lines: tuple[Polyline, ...], shift: Array) -> tuple[Polyline, ...]:
     """Move lines."""
-    return tuple(Polyline(line.vertices + shift, line.closed) for line in lines)
+    return tuple(moved_line(line, shift) for line in lines)
+
+
+def moved_line(line: Polyline, shift: Array) -> Polyline:
+    """Move a line."""
+    return Polyline(line.vertices + shift, line.closed)
 
 
 def moved_point(point: tuple[float, float], shift: Array) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """A drawing of a building, as a person made it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -8,6 +9,9 @@ import shapely
 from pilotage.geometry import Array, Homography, Polyline, segments_of
 from pilotage.maps.file_axes import FileAxes
 from pilotage.maps.zones import Zones
+
+Place = tuple[float, float]
+"""A point of a drawing, y up [drawing units]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +77,23 @@ class SchematicMap:
         """Carry points (n, 2) from the axes of the source file to the sketch (y up)."""
         return self.file_axes.to_sketch(points)
 
+    def carried(
+        self, line: Callable[[Polyline], Polyline], place: Callable[[Place], Place]
+    ) -> "SchematicMap":
+        """Carry all that is drawn and marked elsewhere, by what becomes of a line and of a place."""
+        return replace(
+            self,
+            strokes=tuple(map(line, self.strokes)),
+            solids=tuple(map(line, self.solids)),
+            zones=Zones(*(tuple(map(line, lines)) for lines in self.zones.lines)),
+            doors=tuple(map(line, self.doors)),
+            openings=tuple(map(line, self.openings)),
+            start=self.start and place(self.start),
+            goal=self.goal and place(self.goal),
+            labels=tuple(Label(label.text, place(label.position)) for label in self.labels),
+            unread=tuple(map(place, self.unread)),
+        )
+
     def mirrored(self) -> "SchematicMap":
         """Return the mirror image, left for right; places are told in the axes of the same file."""
         left, _, right, _ = self.bounds
@@ -80,24 +101,14 @@ class SchematicMap:
         photo = (
             Homography.from_matrix(np.eye(3)) if self.photo_from_sketch is None else self.photo_from_sketch
         )
-
-        def carried(line: Polyline) -> Polyline:
-            return Polyline(mirror.points(line.vertices), line.closed)
-
-        def moved(point: tuple[float, float]) -> tuple[float, float]:
-            return left + right - point[0], point[1]
-
+        image = self.carried(
+            lambda line: Polyline(mirror.points(line.vertices), line.closed),
+            lambda here: (left + right - here[0], here[1]),
+        )
         return replace(
-            self,
-            strokes=tuple(carried(line).reversed() for line in self.strokes),  # free space stays on the left
-            solids=tuple(carried(line).reversed() for line in self.solids),
-            zones=Zones(*(tuple(map(carried, lines)) for lines in self.zones.lines)),
-            doors=tuple(carried(line) for line in self.doors),
-            openings=tuple(carried(line) for line in self.openings),
-            start=self.start and moved(self.start),
-            goal=self.goal and moved(self.goal),
-            labels=tuple(Label(label.text, moved(label.position)) for label in self.labels),
-            unread=tuple(map(moved, self.unread)),
+            image,
+            strokes=tuple(line.reversed() for line in image.strokes),  # free space stays on the left
+            solids=tuple(line.reversed() for line in image.solids),
             photo_from_sketch=Homography.from_matrix(photo.matrix @ mirror.matrix),
         )
 
