@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Polyline, segments_of, signed_area
 from pilotage.maps.cells.drawn_doors import at_doors
-from pilotage.maps.cells.tessellation import NO_DOORS, Tessellation, tessellate
+from pilotage.maps.cells.tessellation import NO_SEGMENTS, Tessellation, tessellate
 from pilotage.maps.schematic import SchematicMap, diameter_of
 from pilotage.shape.simplify import Simplification, simplify_all
 
@@ -150,7 +150,7 @@ def within_strokes(
     diameter: float,
     settings: DecompositionSettings,
     doors: Sequence[Polyline] = (),
-    told: Array = NO_DOORS,
+    told: Array = NO_SEGMENTS,
 ) -> FreeSpace:
     """Take what strokes enclose, with openings to the outside, drawn doors and gaps closed.
 

@@ -14,7 +14,8 @@ from pilotage.maps.cells.voronoi import GRID_STEPS, find_voronoi
 STEPS_A_NODE = 4.0
 """How much coarser than the grid of the Voronoi diagram that of the pieces is: its rounding goes away."""
 
-NO_DOORS: Array = np.empty((0, 4))
+NO_SEGMENTS: Array = np.empty((0, 4))
+"""Of a drawing whose file tells no doors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class Tessellation:
         return parts
 
 
-def tessellate(walls: Array, doors: Array = NO_DOORS) -> Tessellation:
+def tessellate(walls: Array, doors: Array = NO_SEGMENTS) -> Tessellation:
     """Cut what walls (n, 4) enclose along its chords, and along doors (m, 4) from jamb to jamb.
 
     A door is a chord by construction: no other is found as long as it stands closed.
