@@ -35,7 +35,7 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
     }
     norths = [text for text in sheet.texts if text.text.strip() == NORTH]
     boxes = [bounds_of(sheet.marks[number]) for number in sorted(small)]
-    compasses = [box for box in boxes if any(is_within(text.position, box) for text in norths)]
+    compasses = [box for box in boxes if any(holds(box, (*text.position, *text.position)) for text in norths)]
     parts = {
         mark.number
         for mark in seen
@@ -44,7 +44,7 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
     texts = {
         number
         for number, text in enumerate(sheet.texts)
-        if text in norths and any(is_within(text.position, box) for box in compasses)
+        if text in norths and any(holds(box, (*text.position, *text.position)) for box in compasses)
     }
     return discs | parts, texts
 
@@ -61,8 +61,3 @@ def is_circle(mark: Mark, largest: float) -> bool:
 def colors_of(mark: Mark) -> list[Color]:
     """List the colors of a mark's line and area."""
     return [color for color in (mark.pen.color if mark.pen else None, mark.fill) if color is not None]
-
-
-def is_within(point: tuple[float, float], box: tuple[float, float, float, float]) -> bool:
-    """Tell whether a point lies in a box."""
-    return box[0] <= point[0] <= box[2] and box[1] <= point[1] <= box[3]
