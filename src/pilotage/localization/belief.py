@@ -26,9 +26,9 @@ class Belief:
     log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of keyframes of the window
     fits: tuple[float, ...] = ()  # at the last keyframes
     searched: float = 0.0  # [m] of travel at the last search
-    at_keyframe: Estimate | None = None  # None before the first scan
-    motion: Pose2 = field(default_factory=Pose2.identity)  # since the last keyframe
-    estimate: Estimate | None = None  # after this motion
+    at_keyframe: Estimate | None = None  # the estimate at the newest keyframe; None before the first scan
+    motion: Pose2 = field(default_factory=Pose2.identity)  # since then [m, rad]
+    estimate: Estimate | None = None  # the same, carried along by this motion
 
     def with_evidence(self, window: tuple[Keyframe, ...], log_total: float) -> "Belief":
         """Take in a window, and the log-evidence of what is new in it."""

@@ -196,8 +196,9 @@ class Localizer:
         fits = (*belief.fits, *self._fits(tracks, seen.scan))[-FIT_MEMORY:]
         fit = sum(fits) / len(fits) if tracks.tracks else 0.0
         estimate = summarize(tracks, fit, seen.stamp, window[-1].travel, self.atlas)
-        belief = replace(belief, tracks=tracks, fits=fits, at_keyframe=estimate)
-        self._belief = replace(belief, motion=Pose2.identity(), estimate=estimate)
+        self._belief = replace(
+            belief, tracks=tracks, fits=fits, at_keyframe=estimate, motion=Pose2.identity(), estimate=estimate
+        )
         return estimate
 
     def add_blocked_way(self, way: BlockedWay) -> None:
