@@ -14,9 +14,6 @@ from pilotage.navigation.stall import StallDetector
 from pilotage.navigation.step import Behavior
 from pilotage.perception import LaserScan
 
-PLAN_EVERY = 0.3
-"""Time [s] between plans."""
-
 ALL_AROUND = math.radians(30.0)
 """A scanner that leaves out less than this [rad] sees all around and need not turn."""
 
@@ -54,7 +51,7 @@ class Memory:
         self, plan: Plan, stamp: float, position: DeadReckoning, settings: NavigatorSettings
     ) -> "Memory":
         """Take note of the last plan, of the time, and of where the robot is now."""
-        memory = self._after(plan, position, settings)
+        memory = self._after(plan, stamp, position, settings)
         if position.turned < memory.look_until:
             return replace(memory, stall=StallDetector())
         estimate, here = position.estimate, position.odom_from_base.position
@@ -80,8 +77,10 @@ class Memory:
         """Replace the blocked gateways."""
         return replace(self, blocked=blocked)
 
-    def _after(self, plan: Plan, position: DeadReckoning, settings: NavigatorSettings) -> "Memory":
-        """Take note of the last plan."""
+    def _after(
+        self, plan: Plan, stamp: float, position: DeadReckoning, settings: NavigatorSettings
+    ) -> "Memory":
+        """Take note of the last plan, which was followed until the time `stamp` [s]."""
         target = plan.path[-1] if plan.behavior is Behavior.EXPLORE else None
         memory = replace(self, exploration=replace(self.exploration, target=target), blocked_way=None)
         if plan.arrival is not None:
@@ -93,8 +92,8 @@ class Memory:
             blocked = self.blocked.stayed_near(
                 plan.leg,
                 position.odom_from_base.position,
-                stamp=plan.stamp,
-                lasted=PLAN_EVERY,
+                stamp=stamp,
+                lasted=stamp - plan.stamp,
                 patience=settings.patience,
             )
             memory = replace(memory, blocked=blocked)

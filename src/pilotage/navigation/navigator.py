@@ -17,7 +17,7 @@ from pilotage.navigation.blocked_gateways import BlockedGateways
 from pilotage.navigation.dead_reckoning import DeadReckoning
 from pilotage.navigation.goal import find_goal
 from pilotage.navigation.local_grid import LocalGrid
-from pilotage.navigation.memory import PLAN_EVERY, Memory
+from pilotage.navigation.memory import Memory
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.planner import RoutePlanner
 from pilotage.navigation.settings import NavigatorSettings
@@ -26,6 +26,9 @@ from pilotage.navigation.steering import steer, turn, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Place, Step
 from pilotage.navigation.tour import HOME, Tour, tour_of
 from pilotage.perception import LaserScan, Odometry
+
+PLAN_EVERY = 0.3
+"""Least time [s] between plans."""
 
 TURNING = 0.7
 """Share of its fastest turn at which the robot looks around."""
