@@ -70,7 +70,7 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
         self.planner = self._first_planner(localizer)
-        unknown = sorted(set(blocked) - {gateway.gateway_id for gateway in self.planner.graph.gateways})
+        unknown = sorted(set(blocked) - self.planner.graph.gateway_ids)
         if unknown:
             raise ValueError(f"blocked must hold ids of gateways of this drawing, got {', '.join(unknown)}")
         self.zones = localizer.atlas.sketch.zones
