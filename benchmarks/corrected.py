@@ -1,6 +1,6 @@
 """Correct drawings of six real buildings after their logs, and tell how far walls are from the true ones.
 
-    python -m benchmarks corrected [--buildings A,B] [--hands A,B] [--jobs N] [--figure FILE]
+    python -m benchmarks corrected
 
 The whole log of a building is localized on a drawing, told neither start nor heading nor scale, and the
 drawing is corrected. Points along the drawn walls that the robot saw are compared with their true places,

@@ -1,6 +1,6 @@
 """Localize on drawings of six real buildings from an unknown start, and tell how often the room is right.
 
-    python -m benchmarks localization [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks localization
 
 Each episode puts the robot down somewhere in the log of a building and takes the next 40 m of travel: no
 start, no heading, no scale. Scans in rooms that a drawing leaves out are not counted. The hands `freehand`

@@ -1,6 +1,6 @@
 """Write the tables of README's section *Measured* from the results that are kept.
 
-    python -m benchmarks readme [--check]
+    python -m benchmarks readme
 
 The text between `<!-- measured: NAME -->` and `<!-- end -->` is replaced. Below each table stand the command,
 the commit and the date of its run; a table of other code than most of the latest day is marked. What was
