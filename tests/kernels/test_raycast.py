@@ -68,7 +68,7 @@ def test_without_walls_nothing_returns():
     origin=st.tuples(st.floats(-12, 12), st.floats(-12, 12)),
     direction=st.floats(-3.1, 3.1) | st.integers(-4, 4).map(lambda k: k * math.pi / 4),
 )
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_looking_only_where_the_beam_goes_changes_nothing(rows, origin, direction):
     where, way, walls = np.array([origin]), np.array([direction]), np.array(rows)
 
@@ -104,7 +104,6 @@ def test_glass_is_seen_by_beams_that_meet_it_squarely():
     direction=st.floats(-3.1, 3.1),
     disc=st.tuples(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 1)),
 )
-@settings(deadline=None)
 def test_a_person_is_met_at_the_near_side(origin, direction, disc):
     (distance,) = cast_on_discs(np.array([origin]), np.array([direction]), np.array([disc]))
     beam = LineString([origin, (origin[0] + 9 * math.cos(direction), origin[1] + 9 * math.sin(direction))])

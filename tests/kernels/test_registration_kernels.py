@@ -47,7 +47,7 @@ def seen_from(pose, step=0.1):
     return np.ascontiguousarray((points - pose[:2]) @ turn), np.ascontiguousarray(directions @ turn), weights
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(segment_lists)
 def test_every_cell_knows_its_nearest_segment(segments):
     field = build_segment_field(segments, CELL, REACH)
@@ -71,7 +71,6 @@ def test_no_segments_make_an_empty_field():
     assert find_nearest(np.zeros((1, 2)), np.ones((1, 2)), field, -1.0).tolist() == [NONE]
 
 
-@settings(deadline=None)
 @given(segment_lists, st.floats(0.02, 1.0))
 def test_samples_weigh_as_much_as_the_segments_are_long(segments, step):
     points, directions, weights, owners = sample_segments(segments, step)
@@ -89,7 +88,6 @@ def test_a_segment_without_length_has_no_samples():
     assert len(points) == 0
 
 
-@settings(deadline=None)
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=9, max_size=9),
     st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3),
@@ -120,7 +118,7 @@ def test_the_gradient_is_that_of_the_robust_cost():
         assert gradient[axis] == pytest.approx((plus - minus) / (2 * h), rel=1e-3, abs=1e-4)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2), st.floats(-0.15, 0.15))
 def test_a_displaced_room_is_put_back(x, y, theta):
     true = np.array([0.3, -0.4, 0.7])
@@ -158,7 +156,7 @@ def test_walls_that_run_the_other_way_do_not_attract():
     assert inlier_weight == 0.0
 
 
-@settings(deadline=None, max_examples=20)
+@settings(max_examples=20)
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
 def test_places_score_as_the_plain_sum_does(x, y, theta):
     field = build_segment_field(ROOM, CELL, REACH)

@@ -35,7 +35,7 @@ PATH = [(0, 0), (3, 0), (3, 2), (0, 2), (0, -1)]
     theta=st.floats(-3.1, 3.1),
     mount=st.builds(Pose2, st.floats(-0.05, 0.05), st.floats(-0.05, 0.05), st.floats(-3, 3)),
 )
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_returns_lie_on_the_walls_wherever_the_laser_is_mounted(x, y, theta, mount):
     laser = LaserSettings(beams=90, field_of_view=6.0, noise=0.0, dropout=0.0, base_from_laser=mount)
     pose = Pose2(x, y, theta)

@@ -89,7 +89,7 @@ def test_the_robot_stops_where_it_touches_and_the_contact_counts_once():
 
 
 @given(commands=st.lists(st.builds(Twist, st.floats(-2, 2), st.floats(-3, 3)), min_size=1, max_size=12))
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_whatever_is_commanded_the_robot_is_never_in_a_wall(commands):
     simulator = simulator_at(4.0, 3.0, 0.5)
     for command in commands:
