@@ -60,6 +60,15 @@ def test_the_time_near_a_gateway_is_counted_in_seconds_however_often_plans_are_m
     assert memory.blocked.time_near["g1"] == pytest.approx(3.0)
 
 
+def test_a_new_goal_keeps_what_is_blocked_and_forgets_how_long_the_robot_was_near_the_others():
+    near = replace(LEG, middle=np.array([1.0, 0.0]))
+    memory = lasting(Plan(Behavior.CROSS, path=PATH, leg=near), 3.0)
+    memory = memory.with_blocked(replace(memory.blocked, since={"g7": 1.0})).for_new_goal(3.0)
+
+    assert {"g7": 1.0} == memory.blocked.since
+    assert {} == memory.blocked.time_near
+
+
 def test_a_stall_while_exploring_gives_the_frontier_up():
     memory = lasting(Plan(Behavior.EXPLORE, path=PATH), 4.5)
 

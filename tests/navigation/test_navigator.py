@@ -381,10 +381,11 @@ def test_all_goals_of_a_tour_must_be_on_the_drawing():
 
 
 def test_a_round_is_driven_again_and_again():
-    told = driven(Tour(("kitchen", (2.5, 2.5)), rounds=2), time_limit=60.0)
+    told = driven(Tour(("kitchen", (4.0, 2.5)), rounds=2), time_limit=60.0)
 
-    assert ["kitchen", (2.5, 2.5)] * 2 == [visit.goal for visit in told.steps[-1].visits]
+    assert ["kitchen", (4.0, 2.5)] * 2 == [visit.goal for visit in told.steps[-1].visits]
     assert Outcome.REACHED is told.outcome
+    assert {()} == {step.closed_gateway_ids for step in told.steps}  # the door was passed, not stayed near
 
 
 def square(left, bottom, right, top):

@@ -71,7 +71,8 @@ class Memory:
     def for_new_goal(self, stamp: float) -> "Memory":
         """Begin anew at a time [s], but keep what was found blocked."""
         fresh = replace(self, began=stamp, stall=StallDetector(), arrival=Arrival(), detours=0)
-        return replace(fresh, detour_until=-math.inf, mismatch_since=math.inf)
+        blocked = BlockedGateways(self.blocked.since)
+        return replace(fresh, blocked=blocked, detour_until=-math.inf, mismatch_since=math.inf)
 
     def with_blocked(self, blocked: BlockedGateways) -> "Memory":
         """Replace the blocked gateways."""
