@@ -1,6 +1,7 @@
 """What the robot keeps from plan to plan: stalls, blocked gateways, doubts at the goal, frontiers."""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 
 from pilotage.localization import BlockedWay, Estimate, Status
@@ -41,11 +42,19 @@ class Memory:
     blocked_way: BlockedWay | None = None  # in odom; found blocked on the route since the last plan
 
     @classmethod
-    def at_start(cls, scan: LaserScan, estimate: Estimate) -> "Memory":
-        """Begin with the first scan; the robot looks around if it does not know its place."""
+    def at_start(cls, scan: LaserScan, estimate: Estimate, blocked: Collection[str] = ()) -> "Memory":
+        """Begin with the first scan; the robot looks around if it does not know its place.
+
+        `blocked` are ids of gateways that were found blocked before.
+        """
         unseen = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
         unseen = unseen if unseen > ALL_AROUND else 0.0
-        return cls(scan.stamp, unseen, 0.0 if estimate.status is Status.LOCATED else unseen)
+        return cls(
+            began=scan.stamp,
+            unseen_angle=unseen,
+            look_until=0.0 if estimate.status is Status.LOCATED else unseen,
+            blocked=BlockedGateways(dict.fromkeys(blocked, scan.stamp)),
+        )
 
     def updated(
         self, plan: Plan, stamp: float, position: DeadReckoning, settings: NavigatorSettings

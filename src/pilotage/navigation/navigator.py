@@ -13,7 +13,6 @@ from pilotage.maps import RouteError
 from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.behaviors import make_plan
-from pilotage.navigation.blocked_gateways import BlockedGateways
 from pilotage.navigation.dead_reckoning import DeadReckoning
 from pilotage.navigation.goal import find_goal
 from pilotage.navigation.local_grid import LocalGrid
@@ -92,9 +91,7 @@ class Navigator:
         self._find_home()
         self.local_grid = self.local_grid.seen(scan, self.position.odom_from_base)
         if self.memory is None:
-            self.memory = Memory.at_start(scan, self.position.localized)
-            since = dict.fromkeys(self._blocked_before, scan.stamp)
-            self.memory = self.memory.with_blocked(BlockedGateways(since))
+            self.memory = Memory.at_start(scan, self.position.localized, self._blocked_before)
         if self.plan.outcome is None and self._is_due(scan.stamp, self.memory):
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
             if self.memory.blocked_way is not None and not self.zones.keep_out:  # else a zone may block it
@@ -179,19 +176,19 @@ class Navigator:
             leg, blocked = self.planner.leg(estimate, memory.blocked)
             memory = memory.with_blocked(blocked)
         return Situation(
-            stamp,
-            estimate,
-            position.twist,
-            len(position.trail) > 1,
-            position.turned,
-            position.trail,
-            self.local_grid,
-            self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
-            memory,
-            self.planner,
-            leg,
-            position.localizer.sample,
-            self.settings,
+            stamp=stamp,
+            estimate=estimate,
+            twist=position.twist,
+            has_moved=len(position.trail) > 1,
+            turned=position.turned,
+            trail=position.trail,
+            local_grid=self.local_grid,
+            reachable=self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
+            memory=memory,
+            planner=self.planner,
+            leg=leg,
+            sample=position.localizer.sample,
+            settings=self.settings,
         )
 
     def _allowed_grid(self, *, knows: bool) -> LocalGrid:
