@@ -1,6 +1,6 @@
 """Run all with default options, many at a time; those that tell times run alone, at the end.
 
-    python -m benchmarks all [--jobs N | --scheduler ADDRESS]
+    python -m benchmarks all
 
 Each benchmark is a task, in processes of this machine or on workers of a Dask scheduler. What is measured is
 kept as it comes. A task whose process is killed is tried again. A benchmark that fails stops no other.

@@ -17,6 +17,7 @@ from pilotage.kernels import evolution_compiled, visibility
 from pilotage.kernels.local_grid import DEAREST, DIAGONAL, STRAIGHT, clearances, flood
 from pilotage.kernels.pose_search import add_place_scores
 from pilotage.kernels.raycast import cast
+from pilotage.kernels.samples import Samples
 from pilotage.kernels.segment_field import SegmentField, build_segment_field
 from pilotage.kernels.segment_sampling import sample_segments
 from pilotage.kernels.steps import Steps
@@ -133,23 +134,19 @@ class TestPlaceScore:
     """How well samples of a scan lie on the local map."""
 
     @pytest.fixture
-    def seen(self) -> tuple[SegmentField, tuple[Array, Array, Array]]:
+    def seen(self) -> tuple[SegmentField, Samples]:
         """Return the room as a field, and as samples."""
         points, directions, weights, _ = sample_segments(ROOM, 0.1)
-        return build_segment_field(ROOM, 0.1, 0.6), (points, directions, weights)
+        return build_segment_field(ROOM, 0.1, 0.6), Samples(points, directions, weights)
 
-    def test_kernel(
-        self, benchmark: BenchmarkFixture, seen: tuple[SegmentField, tuple[Array, Array, Array]]
-    ) -> None:
+    def test_kernel(self, benchmark: BenchmarkFixture, seen: tuple[SegmentField, Samples]) -> None:
         """Compiled, over all samples."""
         field, samples = seen
         scores, place = np.zeros((1, 1)), np.array([0.1, 0.1])
-        add_place_scores(scores, *samples, field, place, 0.1, 1, 0.3, 0.5)
-        benchmark(add_place_scores, scores, *samples, field, place, 0.1, 1, 0.3, 0.5)
+        add_place_scores(scores, samples, field, place, 0.1, 1, 0.3, 0.5)
+        benchmark(add_place_scores, scores, samples, field, place, 0.1, 1, 0.3, 0.5)
 
-    def test_oracle(
-        self, benchmark: BenchmarkFixture, seen: tuple[SegmentField, tuple[Array, Array, Array]]
-    ) -> None:
+    def test_oracle(self, benchmark: BenchmarkFixture, seen: tuple[SegmentField, Samples]) -> None:
         """Sample by sample."""
         field, samples = seen
         once(

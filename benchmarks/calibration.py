@@ -1,6 +1,6 @@
 """Compare the probability of estimates with how often they are right, over the episodes of localization.
 
-    python -m benchmarks calibration [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks calibration
 
 An estimate is right if it lies in the true room. Expected calibration error (ECE) over ten intervals of equal
 width, AUROC and Brier score; every episode has the same weight, however many scans it has. Episodes that
@@ -113,10 +113,9 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "How far the probability of an estimate is from the share of estimates in the right room;"
-                " every"
-                f" episode has the same weight. Between {percent(last['low'])} and {percent(last['high'])}"
-                " it is"
-                f" {percent(last['probability'])} on average, and {percent(last['right'])} are right."
+                f" every episode has the same weight. Between {percent(last['low'])} and"
+                f" {percent(last['high'])} it is {percent(last['probability'])} on average, and"
+                f" {percent(last['right'])} are right."
             ),
             "",
             table(("drawings", "episodes", "expected calibration error", "AUROC", "Brier score"), rows),

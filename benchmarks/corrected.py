@@ -1,6 +1,6 @@
 """Correct drawings of six real buildings after their logs, and tell how far walls are from the true ones.
 
-    python -m benchmarks corrected [--buildings A,B] [--hands A,B] [--jobs N] [--figure FILE]
+    python -m benchmarks corrected
 
 The whole log of a building is localized on a drawing, told neither start nor heading nor scale, and the
 drawing is corrected. Points along the drawn walls that the robot saw are compared with their true places,
@@ -25,9 +25,9 @@ import platformdirs
 from PIL import Image
 
 from benchmarks.lib.arguments import add_drawings, add_jobs
-from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, ROOT, TUNED, drawing_of, drawings
+from benchmarks.lib.data import BUILDINGS, HANDS, LOGS, ROOT, drawing_of, drawings
 from benchmarks.lib.occupancy import PIXEL
-from benchmarks.lib.results import Figures, mean_of
+from benchmarks.lib.results import Figures, means_of_groups
 from benchmarks.lib.tables import prose, table
 from benchmarks.lib.worlds import OCCUPIED, world_of
 from pilotage.correction import NothingBelievedError, Sighting, append_sighting, correct_drawing
@@ -64,19 +64,13 @@ def measure(arguments: argparse.Namespace) -> Figures:
     for (building, hand), row in zip(tasks, all_rows(tasks, arguments.jobs), strict=True):
         rows.setdefault(building, {})[hand] = row
         print(line(building, hand, row), flush=True)
-    for name, chosen in (
-        ("mean", arguments.buildings),
-        ("tuned", [building for building in arguments.buildings if building in TUNED]),
-        ("held_out", [building for building in arguments.buildings if building not in TUNED]),
-    ):
-        rows[name] = {}
-        for hand in arguments.hands:
-            if found := [rows[one][hand] for one in chosen if hand in rows.get(one, {})]:
-                rows[name][hand] = mean_of(found)
-                print(line(name.replace("_", " "), hand, rows[name][hand]))
+    means = means_of_groups(rows, arguments.buildings, arguments.hands)
+    for name, by_hand in means.items():
+        for hand, row in by_hand.items():
+            print(line(name.replace("_", " "), hand, row))
     if arguments.figure is not None:
         draw(*tasks[0], arguments.figure)
-    return rows
+    return {**rows, **means}
 
 
 def all_rows(tasks: list[tuple[str, str]], jobs: int) -> Iterator[Figures]:

@@ -1,6 +1,6 @@
 """Check the data of others that benchmarks read, and bring what is missing where an address is known.
 
-    python -m benchmarks fetch [NAME ...] [--check]
+    python -m benchmarks fetch
 
 `benchmarks/data.toml` names each file or folder with its origin and its SHA-256. The digest of a folder is
 that of the sorted lines `<sha256>  <name>` of its files.

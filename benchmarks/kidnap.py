@@ -1,6 +1,6 @@
 """Carry a robot to another room while it localizes, and tell how soon it notices and finds itself again.
 
-    python -m benchmarks kidnap [--buildings A,B] [--hands A,B] [--kidnaps N] [--jobs N]
+    python -m benchmarks kidnap
 
 On draftsman drawings of three buildings a robot is told nothing. As soon as it is sure (above 0.9) and right
 it is set down more than 10 m away in another room: the log goes on elsewhere, odometry without a jump.

@@ -1,7 +1,6 @@
 """Localize on drawings in people's manner, from true to as people draw, and tell how often the room is right.
 
-    python -m benchmarks ladder [--severities 0,0.5,1] [--people N] [--episodes N] [--buildings A,B]
-        [--hands A,B] [--true-warp] [--statistics] [--figure FILE]
+    python -m benchmarks ladder
 
 The true plan of a building, as `draftsman` drew it, is deformed: proportions room by room, doors, what is
 left out, and the hand itself (`pilotage.evaluation.deformation`). At severity 1 it is as far from the truth

@@ -1,6 +1,6 @@
 """Localize on drawings of six real buildings from an unknown start, and tell how often the room is right.
 
-    python -m benchmarks localization [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks localization
 
 Each episode puts the robot down somewhere in the log of a building and takes the next 40 m of travel: no
 start, no heading, no scale. Scans in rooms that a drawing leaves out are not counted. The hands `freehand`
@@ -16,9 +16,9 @@ import math
 import numpy as np
 
 from benchmarks.lib.arguments import add_drawings, add_jobs, positive
-from benchmarks.lib.data import BUILDINGS, HANDS, PEOPLE, TUNED, drawings
+from benchmarks.lib.data import BUILDINGS, HANDS, PEOPLE, drawings
 from benchmarks.lib.protocols import Followed, Task, follow_all
-from benchmarks.lib.results import Figures, mean_of
+from benchmarks.lib.results import Figures, means_of_groups
 from benchmarks.lib.tables import percent, percent_in, prose, table
 from pilotage.evaluation.episodes import lost, score, settled
 from pilotage.evaluation.intervals import bootstrap_interval
@@ -55,19 +55,11 @@ def measure(arguments: argparse.Namespace) -> Figures:
         rows.setdefault(followed.task.building, {})[followed.task.hand] = row
         print(line(followed.task.building, followed.task.hand, row), flush=True)
     hands = list(dict.fromkeys(task.hand for task in tasks))
-    for name, chosen in (
-        ("mean", arguments.buildings),
-        ("tuned", [building for building in arguments.buildings if building in TUNED]),
-        ("held_out", [building for building in arguments.buildings if building not in TUNED]),
-    ):
-        means = {
-            hand: mean_of([rows[building][hand] for building in chosen if hand in rows.get(building, {})])
-            for hand in hands
-        }
-        rows[name] = {hand: row for hand, row in means.items() if row}
-        for hand, row in rows[name].items():
+    means = means_of_groups(rows, arguments.buildings, hands)
+    for name, by_hand in means.items():
+        for hand, row in by_hand.items():
             print(line(name.replace("_", " "), hand, row))
-    return rows
+    return {**rows, **means}
 
 
 def summarize(followed: Followed) -> Figures:
@@ -149,8 +141,7 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "The robot is put down in real logs of the buildings, told neither start nor heading nor"
-                " scale,"
-                " and travels 40 m. Figures are means over buildings."
+                " scale, and travels 40 m. Figures are means over buildings."
             ),
             "",
             table(

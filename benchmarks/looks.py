@@ -1,6 +1,6 @@
 """Rank the rooms of a drawing by one look, and tell how often the right one is first or among the first five.
 
-    python -m benchmarks looks [--looks N] [--drawings A,B] [--people N] [--proposals N]
+    python -m benchmarks looks
 
 A look is a single scan, or the scans of the last 5 or 10 m joined by registration. No motion before it, no
 start and no scale are known: this is the evidence alone, without a filter. Rooms are ranked by the evidence

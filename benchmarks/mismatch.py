@@ -1,6 +1,6 @@
 """Localize in one building by the drawing of another, and tell how often the mismatch is noticed.
 
-    python -m benchmarks mismatch [--episodes N] [--buildings A,B] [--hands A,B] [--jobs N]
+    python -m benchmarks mismatch
 
 The log of each building is localized on the drawings of all others, 40 m at a time. A mismatch is noticed if
 that is the status at the end. False alarms are counted over the episodes of `localization`, where the drawing
@@ -116,8 +116,7 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "The log of each building is localized on the drawings of the others; `mismatch` should be"
-                " the"
-                " status after 40 m. On the right drawing it should not."
+                " the status after 40 m. On the right drawing it should not."
             ),
             "",
             table(

@@ -1,10 +1,10 @@
 """Retrieve silhouettes by shape: the bull's-eye test of MPEG-7 CE-Shape-1, part B.
 
+    python -m benchmarks mpeg7
+
 Each of 1400 silhouettes in 70 classes of 20 is the query once. Counted is how many of its class are among the
 40 least dissimilar of all, itself included. The measure of Latecki and Lakämper, eq. (2), is published with
-76.45 % (Latecki, Lakämper and Eckhardt, CVPR 2000). To run it on two cores:
-
-    python -m benchmarks mpeg7
+76.45 % (Latecki, Lakämper and Eckhardt, CVPR 2000).
 
 Two silhouettes are as unlike as they are at the best of three levels of evolution, one of them mirrored or
 not. The combination of the paper is ten times as dear: it only puts the best 80 of eq. (2) in order again,

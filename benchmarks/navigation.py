@@ -1,8 +1,6 @@
 """Drive to goals on drawings of buildings, and print how often the robot gets there.
 
-    python -m benchmarks navigation [--json FILE] [--modes known,unknown,packed] [--buildings A,B]
-        [--hands A,B] [--pairs N] [--only K] [--jobs N] [--seed N] [--time-limit S]
-        [--journal DIR] [--figure DIR]
+    python -m benchmarks navigation
 
 The true worlds of six real buildings were made from their logs (worlds_from_logs.py). In each the robot is
 sent from room to room with three drawings: with its start marked on the drawing (known), and without
@@ -257,12 +255,9 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "A robot is sent from room to room in the true worlds of six real buildings, made from"
-                " their logs,"
-                " its start marked on the drawing and not; and through the packed worlds. A drive has"
-                " reached its"
-                " goal if the robot stopped of its own accord in the right room, within 1.5 m of the"
-                " marked point"
-                " or within 10 % of the room's longer side."
+                " their logs, its start marked on the drawing and not; and through the packed worlds. A"
+                " drive has reached its goal if the robot stopped of its own accord in the right room,"
+                " within 1.5 m of the marked point or within 10 % of the room's longer side."
             ),
             "",
             table(

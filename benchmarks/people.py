@@ -1,6 +1,6 @@
 """Localize a simulated robot on thirteen people's sketches of one building, and drive it by them.
 
-    python -m benchmarks people [--sketches 00,01] [--episodes N] [--drives N] [--jobs N]
+    python -m benchmarks people
 
 The building is the true plan of the sketches, at 0.1 m a pixel; a robot with 360 beams drives from place to
 place in it. Each sketch gets the same episodes of 40 m, nothing told. A place is right if the region of the

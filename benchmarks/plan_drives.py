@@ -1,6 +1,6 @@
 """Drive in worlds made of real plans: by the plan itself, and by a photo of a copy by hand.
 
-    python -m benchmarks plan_drives [--only PATTERN] [--drives N] [--severity S] [--jobs N] [--figure DIR]
+    python -m benchmarks plan_drives
 
 The plans are the first ten by name, of those made by others, on which the program finds at least five rooms
 that hang together, scraps not counted. For each drive a world is made of what was understood of the plan, as

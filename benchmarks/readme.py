@@ -1,9 +1,10 @@
 """Write the tables of README's section *Measured* from the results that are kept.
 
-    python -m benchmarks readme [--check]
+    python -m benchmarks readme
 
 The text between `<!-- measured: NAME -->` and `<!-- end -->` is replaced. Below each table stand the command,
-the commit and the date of its run; a table of other code than most of the latest day is marked.
+the commit and the date of its run; a table of other code than most of the latest day is marked. What was
+never measured has no place there.
 """
 
 import argparse
@@ -22,6 +23,10 @@ README = ROOT / "README.md"
 BLOCK = re.compile(r"<!-- measured: (\w+) -->\n(.*?)<!-- end -->", re.DOTALL)
 
 
+class NotMeasuredError(Exception):
+    """A table is asked for of which there are no results."""
+
+
 def main(words: Sequence[str]) -> None:
     """Rewrite README, or check it."""
     parser = argparse.ArgumentParser(
@@ -32,7 +37,10 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("--check", action="store_true", help="change nothing; fail if README differs")
     arguments = parser.parse_args(words)
     old = README.read_text()
-    new = rewritten(old)
+    try:
+        new = rewritten(old)
+    except NotMeasuredError as error:
+        sys.exit(str(error))
     if arguments.check and new != old:
         sys.exit("README differs from the results: run python -m benchmarks readme")
     if new != old:
@@ -40,16 +48,28 @@ def main(words: Sequence[str]) -> None:
 
 
 def rewritten(text: str, folder: Path = results.FOLDER) -> str:
-    """Replace the text of all blocks by what their results say."""
-    names = [match[1] for match in BLOCK.finditer(text)]
-    found = {name: results.load(name, folder) for name in names}
-    latest = latest_commit([one for one in found.values() if one is not None])
+    """Replace the text of all blocks by what their results say; raises NotMeasuredError if one has none."""
+    found = {name: measurement_of(name, folder) for name in names_in(text)}
+    latest = latest_commit(list(found.values()))
 
     def block(match: re.Match[str]) -> str:
         name = match[1]
         return f"<!-- measured: {name} -->\n{body(name, found[name], latest)}\n<!-- end -->"
 
     return BLOCK.sub(block, text)
+
+
+def names_in(text: str) -> list[str]:
+    """Name the benchmarks whose tables a text shows."""
+    return [match[1] for match in BLOCK.finditer(text)]
+
+
+def measurement_of(name: str, folder: Path) -> Measurement:
+    """Read the last measurement of a benchmark; raises NotMeasuredError if there is none."""
+    found = results.load(name, folder)
+    if found is None:
+        raise NotMeasuredError(f"README shows {name}, which was never measured: python -m benchmarks {name}")
+    return found
 
 
 def latest_commit(measurements: Sequence[Measurement]) -> str:
@@ -61,10 +81,8 @@ def latest_commit(measurements: Sequence[Measurement]) -> str:
     return max(commits, key=commits.count)
 
 
-def body(name: str, measurement: Measurement | None, latest: str) -> str:
+def body(name: str, measurement: Measurement, latest: str) -> str:
     """Write one block."""
-    if measurement is None:
-        return f"Not measured yet: `python -m benchmarks {name}`."
     rendered = import_module(f"benchmarks.{name}").render(measurement.figures)
     return f"{rendered}\n\n{origin(measurement, latest)}"
 

@@ -1,6 +1,6 @@
 """Score registration on real logs: errors of each step against the truth, and time.
 
-    python -m benchmarks registration [--logs A,B] [--seed N] [--shapes] [--json FILE]
+    python -m benchmarks registration
 
 Pairs of consecutive scans, thinned to a motion of at least 0.5 m or 20 degrees, ranges cut at 30 m. The guess
 is the raw odometry, as it is and spoilt by noise of 30 % of the distance and 20 degrees a meter. Each scan is

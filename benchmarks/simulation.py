@@ -1,6 +1,6 @@
 """Measure how much faster than real time the simulator runs, on one core.
 
-    python -m benchmarks simulation [--minutes M]
+    python -m benchmarks simulation
 
 A robot wanders through the packed world, and through a raster map of 100 m by 100 m whose walls are as rough
 as those that robots map; there are five people and a swinging door in each. A step is 0.1 s, and takes a scan

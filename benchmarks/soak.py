@@ -1,6 +1,6 @@
 """Drive for simulated hours with goals that change, and check that memory does not grow.
 
-    python -m benchmarks soak [--hours H] [--max-growth MB] [--seed N]
+    python -m benchmarks soak
 
 A robot drives through the packed office by its quick drawing, among people and doors, with a noisy laser and
 noisy wheels; the start is unknown. Every two minutes, and whenever a drive is over, it is sent to another

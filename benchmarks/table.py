@@ -1,6 +1,6 @@
 """Measure how fast the drawing table answers: alone, with a drive, and with eight drives at once.
 
-    python -m benchmarks table [--seconds S] [--drives N]
+    python -m benchmarks table
 
 The server is started as `pilotage table` starts it, and asked over HTTP and websockets:
 

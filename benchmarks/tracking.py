@@ -1,6 +1,6 @@
 """Keep track along known ways from a start that is marked, and tell how far off the robot ends.
 
-    python -m benchmarks tracking [--buildings A,B] [--hands A,B] [--pairs N] [--seeds N] [--settings FILE]
+    python -m benchmarks tracking
 
 In the true worlds of six real buildings (worlds_from_logs) a robot is led along the shortest way from room to
 room, a scan every quarter metre; nobody drives, nobody is about. It is told its start on the drawing. What is
@@ -239,8 +239,7 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "A robot that is told its start is led from room to room; it ends near if its estimate is"
-                " within"
-                " 1.5 m of the true place, or within 10 % of the room's longer side."
+                " within 1.5 m of the true place, or within 10 % of the room's longer side."
             ),
             "",
             table(

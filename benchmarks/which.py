@@ -1,6 +1,6 @@
 """Choose among a hundred drawings the one of the building that a log was made in.
 
-    python -m benchmarks which [--pieces N] [--drawings N] [--workers N] [--no-kill | --only-kill]
+    python -m benchmarks which
 
 Pieces of 40 m of the logs of six buildings are compared with drawings of all of them: by draftsmen, quick,
 schematic, by people, and of the ladder. A drawing is right if it is of the log's building. One piece is

@@ -1,6 +1,6 @@
 """Make a true world of each real building from its log: all scans laid at the true poses, then cleaned.
 
-    python -m benchmarks worlds_from_logs [--buildings A,B] [--output DIR]
+    python -m benchmarks worlds_from_logs
 
 A world is a map_server map in the frame of the true trajectory: `<building>.yaml` and `<building>.png`, free
 254, occupied 0, unknown 205 (solid for a simulator), 0.05 m a pixel. The scans are others' data, so worlds go

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.lib.data import ROOT
+from benchmarks.lib.data import ROOT, TUNED
 from pilotage.io.files import write_text
 
 FOLDER = ROOT / "benchmarks" / "results"
@@ -94,4 +94,24 @@ def mean_of(rows: Sequence[Figures]) -> Figures:
         name: float(np.mean(values))
         for name in (rows[0] if rows else ())
         if not name.endswith("_interval") and (values := [row[name] for row in rows if row[name] is not None])
+    }
+
+
+def means_of_groups(rows: Figures, buildings: Sequence[str], hands: Sequence[str]) -> dict[str, Figures]:
+    """Average rows by hand: over all buildings, those that defaults were chosen on, and those held out.
+
+    `rows` holds for each building a row for each hand that drew it.
+    """
+    groups = {
+        "mean": buildings,
+        "tuned": [building for building in buildings if building in TUNED],
+        "held_out": [building for building in buildings if building not in TUNED],
+    }
+    return {
+        name: {
+            hand: mean_of(found)
+            for hand in hands
+            if (found := [rows[one][hand] for one in chosen if hand in rows.get(one, {})])
+        }
+        for name, chosen in groups.items()
     }

@@ -4,6 +4,7 @@ from benchmarks.kidnap import Attempt, Outcome
 from benchmarks.lib import protocols
 from benchmarks.lib.data import BUILDINGS, DATA, drawings
 from benchmarks.lib.protocols import Followed, Task, follow_all, store, stored
+from benchmarks.lib.results import means_of_groups
 
 from benchmarks import calibration, kidnap, localization, mismatch, soak
 from pilotage.evaluation.episodes import Trace
@@ -61,9 +62,8 @@ def test_the_row_of_a_drawing_holds_all_figures():
 
 
 def test_localization_is_rendered():
-    row = localization.summarize(followed())
-    mean = {"quick": localization.mean_of([row, row])}
-    figures = {"csail": {"quick": row}, "mean": mean, "tuned": mean, "held_out": {}}
+    rows = {"csail": {"quick": localization.summarize(followed())}}
+    figures = {**rows, **means_of_groups(rows, ["csail", "fhw"], ["quick"])}
 
     assert "| `quick` | 1 | 100 % | - | 100 % | 0 m | 0.0 % | 2, 2 | - |" in localization.render(figures)
 

@@ -1,8 +1,12 @@
-from benchmarks.lib.data import ROOT
+from importlib import import_module
+
+import pytest
+from benchmarks.lib import results
 from benchmarks.lib.results import Measurement, save
-from benchmarks.readme import README, latest_commit, rewritten
+from benchmarks.readme import README, NotMeasuredError, latest_commit, names_in, rewritten
 
 MPEG7 = {"eq2": 0.789, "combination": 0.802}
+SIMULATION = {"packed": {"times_real_time": 100.0, "ms_a_step": 0.1}}
 TEXT = """before
 <!-- measured: mpeg7 -->
 old
@@ -24,13 +28,23 @@ def test_readme_says_what_the_results_say():
     assert rewritten(text) == text, "run python -m benchmarks readme"
 
 
-def test_readme_has_a_block_for_every_claim():
-    for name in ("localization", "calibration", "kidnap", "mismatch", "tracking", "navigation"):
-        assert f"<!-- measured: {name} -->" in (ROOT / "README.md").read_text()
+def test_readme_shows_every_table_that_was_measured_and_no_other():
+    measured = [path.stem for path in results.FOLDER.glob("*.json")]
+    tables = {name for name in measured if hasattr(import_module(f"benchmarks.{name}"), "render")}
+
+    assert tables == set(names_in(README.read_text()))
+
+
+def test_a_table_that_was_never_measured_is_refused(tmp_path):
+    save(measurement("mpeg7", MPEG7), tmp_path)
+
+    with pytest.raises(NotMeasuredError, match="README shows simulation, which was never measured"):
+        rewritten(TEXT, tmp_path)
 
 
 def test_only_the_text_between_marks_is_replaced(tmp_path):
     save(measurement("mpeg7", MPEG7), tmp_path)
+    save(measurement("simulation", SIMULATION), tmp_path)
 
     new = rewritten(TEXT, tmp_path)
 
@@ -38,14 +52,13 @@ def test_only_the_text_between_marks_is_replaced(tmp_path):
     assert "| 78.9 % |" in new
     assert "*`python -m benchmarks mpeg7`, commit abc, 2026-01-01, some, 2 cores, Python 3.11.*\n" in new
     assert "old" not in new
-    assert "Not measured yet: `python -m benchmarks simulation`." in new
+    assert "| packed | 100 |" in new
     assert new == rewritten(new, tmp_path)
 
 
 def test_a_table_of_other_code_is_marked(tmp_path):
-    world = {"packed": {"times_real_time": 100.0, "ms_a_step": 0.1}}
     save(measurement("mpeg7", MPEG7), tmp_path)
-    save(measurement("simulation", world, "def", "2026-01-02"), tmp_path)
+    save(measurement("simulation", SIMULATION, "def", "2026-01-02"), tmp_path)
 
     assert 1 == rewritten(TEXT, tmp_path).count("**Other code than most tables (def).**")
 

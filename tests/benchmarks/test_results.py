@@ -3,7 +3,7 @@ import subprocess
 
 import pytest
 from benchmarks.lib import results
-from benchmarks.lib.results import Measurement, commit_of, load, save
+from benchmarks.lib.results import Measurement, commit_of, load, means_of_groups, save
 
 
 def measurement(name="cells", commit="abc", date="2026-01-01"):
@@ -58,3 +58,12 @@ def test_a_measurement_tells_of_what_and_where(monkeypatch):
     assert "abc+" == made.commit
     assert {"cpu", "cores", "python"} == set(made.machine)
     json.dumps(made.machine)
+
+
+def test_held_out_buildings_are_averaged_apart_and_those_that_a_hand_did_not_draw_left_out():
+    rows = {"csail": {"quick": {"a": 1.0}}, "fhw": {"quick": {"a": 2.0}, "plan": {"a": 5.0}}}
+    means = means_of_groups(rows, ["csail", "fhw", "aces"], ["quick", "plan"])
+
+    assert {"quick": {"a": 1.5}, "plan": {"a": 5.0}} == means["mean"]
+    assert {"quick": {"a": 1.0}} == means["tuned"]
+    assert {"quick": {"a": 2.0}, "plan": {"a": 5.0}} == means["held_out"]

@@ -3,7 +3,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 import strategies
 from pilotage.contours import Bend, find_arcs
@@ -17,7 +17,6 @@ def has_no_fold(polyline):
     return (np.abs(turns(polyline)) < math.pi - 1e-6).all()
 
 
-@settings(deadline=None)
 @given(strategies.polylines())
 def test_arcs_partition_the_polyline(polyline):
     arcs = find_arcs(polyline)
@@ -29,7 +28,6 @@ def test_arcs_partition_the_polyline(polyline):
         np.testing.assert_allclose(polyline.cut(after.span).vertices[0], end, atol=1e-9)
 
 
-@settings(deadline=None)
 @given(strategies.polylines())
 def test_neighboring_arcs_bend_opposite_ways(polyline):
     bends = [arc.bend for arc in find_arcs(polyline)]
@@ -38,7 +36,6 @@ def test_neighboring_arcs_bend_opposite_ways(polyline):
     assert all(after is OPPOSITE[before] for before, after in pairwise(around))
 
 
-@settings(deadline=None)
 @given(strategies.polylines())
 def test_within_an_arc_no_turn_goes_against_its_bend(polyline):
     for arc in find_arcs(polyline):
@@ -50,7 +47,6 @@ def test_within_an_arc_no_turn_goes_against_its_bend(polyline):
         assert arc.turn == pytest.approx(inner.sum(), abs=1e-6)
 
 
-@settings(deadline=None)
 @given(strategies.polylines(closed=False))
 def test_reversing_swaps_convex_and_concave(polyline):
     assume(has_no_fold(polyline))

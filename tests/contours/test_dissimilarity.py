@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import strategies
@@ -29,7 +29,6 @@ def pairs(draw):
     return draw(contours(closed)), draw(contours(closed))
 
 
-@settings(deadline=None)
 @given(contours(), strategies.poses, strategies.scales)
 def test_congruent_contours_are_not_unlike_and_with_relative_lengths_similar_ones_neither(
     contour, pose, scale
@@ -43,7 +42,6 @@ def test_congruent_contours_are_not_unlike_and_with_relative_lengths_similar_one
         assert dissimilarity(contour, similar, Comparison(measure)) == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(deadline=None)
 @given(pairs(), strategies.poses, comparisons)
 def test_a_rigid_motion_of_either_changes_nothing(pair, pose, comparison):
     a, b = pair
@@ -53,7 +51,6 @@ def test_a_rigid_motion_of_either_changes_nothing(pair, pose, comparison):
     assert dissimilarity(a.moved(pose), b, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None)
 @given(pairs(), comparisons)
 def test_either_may_come_first(pair, comparison):
     a, b = pair
@@ -63,7 +60,6 @@ def test_either_may_come_first(pair, comparison):
     assert dissimilarity(b, a, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None)
 @given(pairs(), comparisons)
 def test_running_both_the_other_way_changes_nothing(pair, comparison):
     a, b = pair
@@ -75,7 +71,6 @@ def test_running_both_the_other_way_changes_nothing(pair, comparison):
     )
 
 
-@settings(deadline=None)
 @given(contours(closed=True), contours(closed=True), st.integers(0, 6), comparisons)
 def test_a_closed_contour_may_start_at_any_vertex(a, b, start, comparison):
     elsewhere = Polyline(np.roll(b.vertices, start, axis=0), closed=True)
@@ -85,13 +80,11 @@ def test_a_closed_contour_may_start_at_any_vertex(a, b, start, comparison):
     assert dissimilarity(a, elsewhere, comparison) == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@settings(deadline=None)
 @given(pairs())
 def test_the_combination_is_never_more_than_equation_2(pair):
     assert dissimilarity(*pair, COMBINED) <= dissimilarity(*pair, TANGENT) + 1e-12
 
 
-@settings(deadline=None)
 @given(contours(closed=False), contours(closed=False), st.floats(0.2, 5.0))
 def test_with_absolute_lengths_dissimilarity_grows_with_scale(c, d, scale):
     zoom = Similarity2(scale, strategies.Pose2.identity())

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 import strategies
 from pilotage.contours import Matching, match_partial, match_partial_near
@@ -29,7 +29,6 @@ def assert_poses_equal(actual, expected):
     assert (difference.x, difference.y, difference.theta) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
 
 
-@settings(deadline=None)
 @given(shapes(), strategies.poses)
 def test_a_shape_is_found_whole_in_itself_at_the_pose_it_was_moved_to(shape, known_from_seen):
     best = match_partial(shape, shape.moved(known_from_seen), SETTINGS)[0]
@@ -39,7 +38,6 @@ def test_a_shape_is_found_whole_in_itself_at_the_pose_it_was_moved_to(shape, kno
     assert_poses_equal(best.known_from_seen, known_from_seen)
 
 
-@settings(deadline=None)
 @given(shapes(), shapes(), strategies.poses)
 def test_a_rigid_motion_of_either_moves_the_pose_and_changes_no_cost(seen, known, pose):
     before, after = match_partial(seen, known, SETTINGS), match_partial(seen.moved(pose), known, SETTINGS)
@@ -48,7 +46,6 @@ def test_a_rigid_motion_of_either_moves_the_pose_and_changes_no_cost(seen, known
     assert [match.cost for match in after] == pytest.approx([match.cost for match in before], abs=1e-6)
 
 
-@settings(deadline=None)
 @given(shapes(), shapes())
 def test_either_may_be_the_one_seen(seen, known):
     there, back = match_partial(seen, known, SETTINGS)[:1], match_partial(known, seen, SETTINGS)[:1]
@@ -56,7 +53,6 @@ def test_either_may_be_the_one_seen(seen, known):
     assert [match.cost for match in back] == pytest.approx([match.cost for match in there], abs=1e-6)
 
 
-@settings(deadline=None)
 @given(shapes(), shapes())
 def test_running_both_the_other_way_changes_no_cost(seen, known):
     there = match_partial(seen, known, SETTINGS)[:1]

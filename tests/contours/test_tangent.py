@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 import strategies
 from pilotage.contours import TangentFunction
@@ -10,7 +10,6 @@ from pilotage.contours.tangent import turns
 from pilotage.geometry import Polyline
 
 
-@settings(deadline=None)
 @given(strategies.polylines())
 def test_the_polyline_can_be_drawn_again_from_its_tangent_function(polyline):
     tangent = TangentFunction.of(polyline)

@@ -58,7 +58,7 @@ def distances(corrected, sketch_from_world):
     return np.hypot(*(fit_similarity(found, places, rigid=True) @ found - places).T)
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(st.floats(-3.0, 3.0), st.floats(0.5, 50.0))
 def test_without_evidence_a_drawing_keeps_its_shape(angle, scale):
     pose = Pose2(20.0, -5.0, angle)
@@ -73,7 +73,7 @@ def test_without_evidence_a_drawing_keeps_its_shape(angle, scale):
     assert corrected.seen == ()
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(STRETCHES, STRETCHES)
 def test_wrong_proportions_are_found(wide, high):
     def draw(points):
@@ -85,7 +85,7 @@ def test_wrong_proportions_are_found(wide, high):
     assert corrected.seen_share > 0.6
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(st.floats(-0.05, 0.05), st.floats(-0.05, 0.05))
 def test_a_smooth_warp_is_found(bend_x, bend_y):
     def draw(points):
@@ -111,7 +111,7 @@ def test_scans_correct_what_the_estimates_get_wrong():
     assert distances(corrected, draw).mean() < 0.5 * distances(drawing_alone, draw).mean()
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(st.floats(-3.0, 3.0))
 def test_turning_the_sheet_turns_the_result(angle):
     pose = Pose2(3.0, 4.0, angle)

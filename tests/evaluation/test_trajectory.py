@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from pilotage.evaluation.trajectory import associate, chain, motion_errors, motions, spoil, thin
@@ -18,7 +18,6 @@ def trajectory(stamps):
     return Trajectory(np.array(stamps), np.zeros((len(stamps), 3)))
 
 
-@settings(deadline=None)
 @given(pose_lists)
 def test_chained_motions_lead_where_the_poses_lead(path):
     start, *rest = chain(motions(path))
@@ -29,7 +28,6 @@ def test_chained_motions_lead_where_the_poses_lead(path):
         assert (there.x, there.y, there.theta) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
 
 
-@settings(deadline=None)
 @given(pose_lists)
 def test_true_motions_have_no_error(path):
     errors = motion_errors(motions(path), motions(path))

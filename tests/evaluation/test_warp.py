@@ -12,9 +12,8 @@ from pilotage.evaluation.rooms import read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.warp import Warp, read_warp
 from pilotage.geometry import Pose2
 from pilotage.io import open_map
-from shared_data import LOGS, needs_logs
+from shared_data import SKETCHES, needs_sketches
 
-SKETCHES = LOGS.parent / "sketches"
 DRAWINGS = sorted(
     path for path in SKETCHES.glob("*/*.json") if path.stem in {"draftsman", "quick", "schematic"}
 )
@@ -113,7 +112,7 @@ def test_points_of_a_file_are_turned_up(tmp_path):
     np.testing.assert_allclose(warp.in_sketch, 2.0 * GRID)
 
 
-@needs_logs
+@needs_sketches
 @pytest.mark.parametrize("path", DRAWINGS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_rooms_are_carried_to_where_they_are_drawn(path):
     sketch = open_map(path.with_suffix(".svg"))

@@ -13,10 +13,9 @@ from pilotage.evaluation.warp import read_warp
 from pilotage.io import open_log, open_map, open_world
 from pilotage.localization import Localizer, LocalizerSettings
 from pilotage.ranking.evidence import reduced
-from shared_data import LOGS, needs_logs
+from shared_data import LOGS, SKETCHES, needs_logs
 
 OFFICE = worlds.OFFICE.folder
-SKETCHES = LOGS.parent / "sketches"
 FEW = reduced(LocalizerSettings(), 1 / 8)
 FEW_TOML = """[localizer]
 proposals = 4000

@@ -14,9 +14,8 @@ from pilotage.io import open_log, open_map
 from pilotage.io.tum import read_trajectory
 from pilotage.localization import Localizer, Status, TrackSettings
 from pilotage.maps import AtlasSettings, build_atlas
-from shared_data import LOGS, needs_logs
+from shared_data import LOGS, SKETCHES, needs_logs
 
-SKETCHES = LOGS.parent / "sketches"
 QUICK = LocalizerSettings(
     tracks=TrackSettings(first_count=40_000, max_count=8_000, min_count=2_000), proposals=4_000
 )

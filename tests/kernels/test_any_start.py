@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 import strategies
 from pilotage.contours import ArcSequence
@@ -14,7 +14,6 @@ def start_by_start(c, d):
     return min(arc_dissimilarity(c, p, p + n, d, q, q + m) for p in range(n) for q in range(m))
 
 
-@settings(deadline=None)
 @given(strategies.star_shaped_outlines(max_size=8), strategies.star_shaped_outlines(max_size=8))
 def test_meetings_of_steps_find_what_trying_all_starts_finds(a, b):
     c, d = (ArcSequence.of(outline).steps(outline.length).steps for outline in (a, b))
@@ -22,7 +21,6 @@ def test_meetings_of_steps_find_what_trying_all_starts_finds(a, b):
     assert any_start_dissimilarity(c, d) == pytest.approx(start_by_start(c, d), rel=1e-6, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(strategies.star_shaped_outlines(max_size=8), strategies.star_shaped_outlines(max_size=8))
 def test_no_start_between_vertices_is_better(a, b):
     """Starts are sampled by cutting a segment of one contour, which changes nothing but adds a start."""

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import oracles
@@ -26,7 +26,6 @@ def test_groups_are_of_one_against_an_odd_number():
     assert group_sizes(5).tolist() == [[1, 1], [1, 3], [3, 1], [1, 5], [5, 1]]
 
 
-@settings(deadline=None)
 @given(arc_counts, arc_counts, largest_groups, st.integers(0, 10_000))
 def test_the_dynamic_programme_finds_what_trying_all_sequences_finds(k, m, largest, seed):
     costs, sizes = random_costs(k, m, largest, seed), group_sizes(largest)
@@ -36,7 +35,6 @@ def test_the_dynamic_programme_finds_what_trying_all_sequences_finds(k, m, large
         assert found(costs, sizes, i0, j0) == pytest.approx(expected)
 
 
-@settings(deadline=None)
 @given(arc_counts, arc_counts, largest_groups, st.integers(0, 10_000), st.floats(0.0, 3.0))
 def test_a_bound_hides_no_sum_below_it(k, m, largest, seed, bound):
     costs, sizes = random_costs(k, m, largest, seed), group_sizes(largest)
@@ -46,7 +44,6 @@ def test_a_bound_hides_no_sum_below_it(k, m, largest, seed, bound):
     assert min(found(costs, sizes, 0, 0, bound), bound) == pytest.approx(min(expected, bound))
 
 
-@settings(deadline=None)
 @given(arc_counts, arc_counts, largest_groups, st.integers(0, 10_000))
 def test_no_start_of_a_closed_contour_is_better_than_those_tried(k, m, largest, seed):
     costs, sizes = random_costs(k, m, largest, seed), group_sizes(largest)

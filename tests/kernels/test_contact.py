@@ -40,7 +40,7 @@ def share_plainly(start, move, reach, row):
 
 
 @given(row=rows, start=points, move=points, reach=st.floats(0.05, 1.0))
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_a_disc_moves_as_far_as_geometry_says(row, start, move, reach):
     segment = MultiLineString([[row[:2], row[2:]]]) if row[:2] != row[2:] else Point(row[:2])
     outside = segment.distance(Point(start)) > reach + 1e-6
@@ -52,7 +52,7 @@ def test_a_disc_moves_as_far_as_geometry_says(row, start, move, reach):
 
 
 @given(walls=st.lists(rows, max_size=30), start=points, move=points, reach=st.floats(0.01, 0.5))
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_the_grid_leaves_no_segment_out(walls, start, move, reach):
     segments = np.array(walls).reshape(-1, 4)
     expected = min((share_before_segment(*start, *move, reach, row) for row in segments), default=1.0)
@@ -91,7 +91,6 @@ def test_doors_and_people_are_met_as_walls_are():
 
 
 @given(walls=st.lists(rows, max_size=20), places=st.lists(points, min_size=1), farthest=st.floats(0.1, 20.0))
-@settings(deadline=None)
 def test_clearance_is_what_geometry_says(walls, places, farthest):
     segments = np.array(walls).reshape(-1, 4)
     plain = [

@@ -1,7 +1,7 @@
 """Which points contours enclose."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from shapely import Point, Polygon
 
@@ -21,7 +21,6 @@ def enclosed_by(segments, places):
     outline=star_shaped_outlines(),
     places=st.lists(st.tuples(st.floats(-5, 5), st.floats(-5, 5)), min_size=1, max_size=20),
 )
-@settings(deadline=None)
 def test_a_contour_encloses_what_geometry_says(outline, places):
     segments = np.hstack([outline.ring[:-1], outline.ring[1:]])
     polygon = Polygon(outline.vertices)
@@ -32,7 +31,6 @@ def test_a_contour_encloses_what_geometry_says(outline, places):
 
 
 @given(seed=st.integers(0, 10_000), size=st.sampled_from([0.05, 0.1, 0.3, 1.0]), share=st.floats(0.1, 0.9))
-@settings(deadline=None)
 def test_cells_of_a_map_are_told_from_its_walls(seed, size, share):
     free = np.pad(np.random.default_rng(seed).random((14, 19)) < share, 1)
     level = [(x, y, x + 1, y) for y, x in np.argwhere(free[1:] != free[:-1]) + UP]

@@ -2,7 +2,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import oracles
@@ -27,7 +27,6 @@ def survivors(kernel, runs, closed, min_relevance):
     ]
 
 
-@settings(deadline=None)
 @given(st.lists(strategies.polylines(min_size=3, max_size=9), min_size=1, max_size=3), thresholds)
 def test_the_heap_and_the_grid_change_nothing_against_looking_at_all(polylines, min_relevance):
     runs = [polyline.vertices for polyline in polylines]
@@ -38,7 +37,6 @@ def test_the_heap_and_the_grid_change_nothing_against_looking_at_all(polylines, 
     )
 
 
-@settings(deadline=None)
 @given(runs_on_a_grid, st.booleans(), thresholds)
 def test_touching_straight_and_repeated_vertices_are_decided_alike_by_both(runs, closed, min_relevance):
     closed = [closed] * len(runs)

@@ -42,7 +42,7 @@ def as_chain(vertices, first_goes_on, last_goes_on):
     )
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(pairs_of_chains(), poses_near_identity, prices)
 def test_the_dynamic_programme_finds_what_trying_everything_finds(pair, pose, prices):
     seen, known = pair
@@ -53,7 +53,6 @@ def test_the_dynamic_programme_finds_what_trying_everything_finds(pair, pose, pr
     assert found.costs[0] == pytest.approx(expected, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(pairs_of_chains(), poses_near_identity)
 def test_a_path_goes_forward_on_both_sides_one_segment_against_a_run(pair, pose):
     seen, known = (as_chain(*side) for side in pair)

@@ -11,7 +11,7 @@ points = st.tuples(coordinates, coordinates)
 segments = st.lists(st.tuples(points, points).filter(lambda ends: ends[0] != ends[1]), min_size=1, max_size=8)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(place=points, ends=segments, directions=st.integers(1, 90))
 def test_ranges_are_those_of_single_beams(place, ends, directions):
     walls = np.array(ends, dtype=np.float64).reshape(-1, 4)

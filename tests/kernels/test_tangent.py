@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import oracles
@@ -27,7 +27,6 @@ def both(kernel, c, d, *arguments):
     return kernel(steps(c), 0, len(c[0]), steps(d), 0, len(d[0]), *arguments)
 
 
-@settings(deadline=None)
 @given(stretches(), stretches())
 def test_the_merged_integrals_are_those_of_fine_samples(c, d):
     samples = oracles.differences_of_directions(c, d)
@@ -41,7 +40,6 @@ def test_the_merged_integrals_are_those_of_fine_samples(c, d):
     )
 
 
-@settings(deadline=None)
 @given(stretches(), stretches())
 def test_half_of_all_differences_lie_on_either_side_of_their_median(c, d):
     samples = oracles.differences_of_directions(c, d)
@@ -52,13 +50,11 @@ def test_half_of_all_differences_lie_on_either_side_of_their_median(c, d):
     assert (samples > middle + 1e-9).mean() <= 0.5 + 1e-3
 
 
-@settings(deadline=None)
 @given(stretches(), stretches())
 def test_the_median_only_changes_sign_when_arcs_change_places(c, d):
     assert both(tangent.median, c, d) == pytest.approx(-both(tangent.median, d, c))
 
 
-@settings(deadline=None)
 @given(stretches(), stretches(), st.floats(-3.0, 3.0), st.integers(1, 4))
 def test_segments_correspond_as_cheaply_as_any_correspondence(c, d, rotation, largest_run):
     expected = oracles.segment_dissimilarity(c, d, rotation, largest_run)

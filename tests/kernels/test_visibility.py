@@ -45,7 +45,7 @@ def plain_sum(state, beams, ranges):
     return score
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     place=st.tuples(st.floats(-1.9, 1.9), st.floats(-1.9, 1.9)),
     heading=st.floats(-7.0, 7.0),

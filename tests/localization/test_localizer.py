@@ -10,9 +10,11 @@ import pytest
 from buildings import coarse, flat, readings_of, walk
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Similarity2
-from pilotage.localization import Localizer, LocalizerSettings, Status, TrackSettings
+from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings
+from pilotage.localization.belief import Belief
 from pilotage.localization.global_search import global_search
 from pilotage.localization.keyframes import append_keyframe
+from pilotage.localization.localizer import log_birth_factor
 from pilotage.localization.observation import observe
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
 from pilotage.localization.sensor_model import SensorModel
@@ -257,6 +259,16 @@ def test_a_search_of_the_whole_drawing_finds_the_place(atlas):
     assert abs(math.remainder(best[HEADING] - true.theta, math.tau)) < math.radians(20.0)
     assert abs(best[LOG_SCALE] - math.log(12.0)) < 0.4
     assert 0.0 < found.log_mass  # it explains more than any building does
+
+
+def test_a_birth_is_weighed_against_what_the_tracks_explained_after_the_first_keyframe_of_the_window():
+    window = append_keyframe((), observe(readings_of(PATH)[0][0], (), Pose2.identity()))
+    before = Belief(Tracks((), 0.0), window=window)
+    first = before.with_evidence(window, 2.0)
+    second = first.with_evidence(window, 0.5)
+    factors = [log_birth_factor(one, SMALL.tracks) for one in (before, first, second)]
+
+    assert [0.0, 0.0, -0.5] == pytest.approx([factor - factors[0] for factor in factors])
 
 
 @pytest.mark.parametrize(

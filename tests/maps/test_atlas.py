@@ -3,10 +3,10 @@ import math
 import numpy as np
 import pytest
 
-from buildings import flat
+from buildings import coarse, flat
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.kernels.visibility import LOG_STEP, LOG_ZERO
-from pilotage.maps import AtlasSettings, NotEnclosedError, RangeTableSettings, SchematicMap, build_atlas
+from pilotage.maps import NotEnclosedError, RangeTableSettings, SchematicMap, build_atlas
 from pilotage.maps.range_table import build_range_table
 
 
@@ -38,8 +38,8 @@ def test_where_nothing_is_enclosed_the_robot_can_be_anywhere():
 
 
 def test_an_atlas_turns_and_grows_with_its_drawing():
-    first = build_atlas(flat(), AtlasSettings())
-    second = build_atlas(flat(5.0, Pose2(9.0, -4.0, math.pi / 2)), AtlasSettings())
+    first = build_atlas(flat(), coarse())
+    second = build_atlas(flat(5.0, Pose2(9.0, -4.0, math.pi / 2)), coarse())
 
     assert len(first.cell_graph.cells) == len(second.cell_graph.cells)
     assert math.isclose(math.log(5.0), second.log_scale - first.log_scale, abs_tol=0.02)
@@ -49,7 +49,7 @@ def test_an_atlas_turns_and_grows_with_its_drawing():
 
 
 def test_a_drawing_that_encloses_nothing_has_no_cells():
-    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), AtlasSettings())
+    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), coarse())
 
     assert atlas.cell_graph is None
     assert "" == atlas.cell_at((1.0, 1.0))
@@ -58,11 +58,11 @@ def test_a_drawing_that_encloses_nothing_has_no_cells():
 
 def test_a_drawing_that_is_all_one_point_is_refused():
     with pytest.raises(NotEnclosedError, match="encloses none"):
-        build_atlas(SchematicMap((Polyline.through([(3, 4), (3, 4)]),)), AtlasSettings())
+        build_atlas(SchematicMap((Polyline.through([(3, 4), (3, 4)]),)), coarse())
 
 
 def test_points_are_in_the_cells_that_they_lie_in():
-    atlas = build_atlas(flat(), AtlasSettings())
+    atlas = build_atlas(flat(), coarse())
     points = atlas.range_table.places
     ids = np.array([atlas.cell_at((x, y)) for x, y in points])
     first, second, *_ = atlas.cell_graph.cells
@@ -92,7 +92,7 @@ def test_points_are_looked_up_where_they_lie_and_off_the_grid_at_its_rim():
 
 
 def test_grid_cells_know_which_cell_of_the_drawing_they_lie_in():
-    atlas = build_atlas(flat(), AtlasSettings(range_table=RangeTableSettings(cells=60, directions=30)))
+    atlas = build_atlas(flat(), coarse())
     table, graph = atlas.range_table, atlas.cell_graph
 
     assert len(graph.cells) > 1
@@ -102,7 +102,7 @@ def test_grid_cells_know_which_cell_of_the_drawing_they_lie_in():
 
 
 def test_where_there_are_no_cells_all_grid_cells_are_the_first():
-    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), AtlasSettings())
+    atlas = build_atlas(SchematicMap((Polyline.through([(0, 0), (4, 1)]),)), coarse())
 
     assert {0} == set(atlas.cell_indices.tolist())
     assert atlas.range_table.columns * atlas.range_table.rows == len(atlas.cell_indices)

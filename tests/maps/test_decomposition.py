@@ -1,7 +1,6 @@
 import itertools
 import math
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,8 +12,7 @@ from buildings import CORRIDOR_AND_FOUR_ROOMS
 from pilotage.geometry import Polyline, Pose2, Similarity2
 from pilotage.io.maps import open_map
 from pilotage.maps import CellGraph, CellSize, DecompositionSettings, Label, SchematicMap, decompose
-
-SHARED = Path(__file__).resolve().parents[2] / ".." / "shared" / "data"
+from shared_data import SKETCHES, needs_sketches
 
 
 def drawing(*strokes, labels=()):
@@ -125,7 +123,7 @@ def similarities(draw):
     return Similarity2(scale, Pose2(*shift, angle))
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(similarities())
 def test_turning_and_scaling_the_drawing_changes_nothing_but_coordinates(b_from_a):
     graph = decomposed(*OFFICE)
@@ -188,7 +186,7 @@ def floors(draw):
     return strokes
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(floors())
 def test_cells_do_not_overlap_and_gateways_border_their_two_cells(strokes):
     graph = decomposed(*strokes)
@@ -207,21 +205,21 @@ def test_the_same_drawing_gives_the_same_cells():
     ]
 
 
-@pytest.mark.skipif(not SHARED.exists(), reason="the shared drawings are not here")
+@needs_sketches
 @pytest.mark.parametrize(
     "name", ["aces/draftsman", "belgioioso/quick", "csail/schematic", "freiburg-079/quick"]
 )
 def test_drawn_buildings_fall_into_sound_cells(name):
-    graph = decompose(open_map(SHARED / "sketches" / f"{name}.svg"), DecompositionSettings())
+    graph = decompose(open_map(SKETCHES / f"{name}.svg"), DecompositionSettings())
 
     assert_sound(graph)
     assert 10 <= len(graph.cells) <= 35
 
 
-@pytest.mark.skipif(not SHARED.exists(), reason="the shared drawings are not here")
+@needs_sketches
 @pytest.mark.parametrize("name", ["aces/quick", "fhw/draftsman", "freiburg-079/quick"])
 def test_drawn_buildings_fall_into_the_same_cells_when_the_sheet_is_turned(name):
-    sketch = open_map(SHARED / "sketches" / f"{name}.svg")
+    sketch = open_map(SKETCHES / f"{name}.svg")
     turned_from_drawn = Similarity2(0.5, Pose2(5.0, 7.0, 0.7))
     turned = SchematicMap(tuple(stroke.moved(turned_from_drawn) for stroke in sketch.strokes))
     areas, turned_areas = (

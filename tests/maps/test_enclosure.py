@@ -1,10 +1,7 @@
-from pathlib import Path
-
-import pytest
-
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
 from pilotage.maps import DecompositionSettings, SchematicMap, decompose
+from shared_data import SKETCHES, needs_sketches
 
 
 def decomposed(*strokes):
@@ -13,7 +10,6 @@ def decomposed(*strokes):
     )
 
 
-CSAIL = Path(__file__).resolve().parents[2] / ".." / "shared" / "data" / "sketches" / "csail" / "quick.svg"
 HALL = [(0, 0), (40, 0), (40, 20), (0, 20), (0, 0)]
 
 
@@ -55,9 +51,9 @@ def test_a_room_at_the_outer_wall_needs_no_door():
     assert holds(graph, (35.0, 10.0))
 
 
-@pytest.mark.skipif(not CSAIL.exists(), reason="the shared drawings are not here")
+@needs_sketches
 def test_in_a_sketch_a_corridor_beyond_a_yard_is_inside_and_the_block_beside_it_is_not():
-    graph = decompose(open_map(CSAIL), DecompositionSettings())
+    graph = decompose(open_map(SKETCHES / "csail" / "quick.svg"), DecompositionSettings())
 
     assert holds(graph, (183.6, -257.3))
     assert not holds(graph, (187.2, -236.4))

@@ -18,13 +18,13 @@ def framed(segments):
     return np.array([*segments, *FRAME], dtype=np.float64)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(segment_lists)
 def test_segments_that_were_snapped_meet_at_their_ends_only(segments):
     assert are_planar(snap(np.array(segments), 1e-3))
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(segment_lists)
 def test_clearance_is_the_distance_to_the_nearest_wall(segments):
     """Oracle: measure to every wall."""
@@ -37,7 +37,7 @@ def test_clearance_is_the_distance_to_the_nearest_wall(segments):
     assert expected == pytest.approx(diagram.clearances[used], abs=1e-4)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(segment_lists)
 def test_no_wall_comes_near_the_middle_of_a_chord(segments):
     """Oracle: measure from the middle of each chord to every wall; niches may be shallow."""
@@ -50,7 +50,7 @@ def test_no_wall_comes_near_the_middle_of_a_chord(segments):
     assert (room > 0.2 * chords.widths - 1e-4).all()
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(segment_lists)
 def test_chords_do_not_cross(segments):
     chords = find_chords(find_voronoi(framed(segments))).segments

@@ -1,4 +1,4 @@
-"""What is kept of the grid, and where a disc can go in them."""
+"""What the grid keeps of scans while it moves along, and where a disc can go on it."""
 
 import math
 
@@ -33,7 +33,7 @@ def evidence_at(grid, points):
     return np.where(inside, grid.evidence[tuple(np.where(inside[:, None], cells, 0).T)], 0), inside
 
 
-def test_things_stand_where_the_beams_ended():
+def test_obstacles_are_where_the_beams_ended():
     pose = Pose2(0.013, 0.017, 0.0) @ HERE  # no wall along the border of cells
     scan = scan_at(HERE, **ALL_AROUND)
     grid = LocalGrid.unknown(SIZE).seen(scan, pose)
@@ -56,7 +56,7 @@ def test_the_last_beam_is_beside_the_first_only_if_the_scanner_sees_all_around(f
     assert is_seen_free == (evidence_at(grid, ahead)[0][0] < 0)
 
 
-def test_a_laser_that_is_mounted_anywhere_sees_the_same_things():
+def test_a_laser_that_is_mounted_anywhere_sees_the_same_obstacles():
     base_from_laser = Pose2(-0.3, 0.1, 2.5)
     scan = scan_at(HERE @ base_from_laser, **ALL_AROUND)
     mounted = LaserScan(
@@ -125,19 +125,21 @@ def test_nothing_is_seen_behind_a_laser_that_looks_ahead():
     st.sampled_from([0.5, 0.9, 1.0]),
     st.integers(0, 2**32 - 1),
 )
-def test_thought_beams_lie_between_neighbors_and_are_as_short(count, first, sense, share, seed):
+def test_interpolated_beams_lie_between_neighbors_and_are_as_long_as_the_shorter(
+    count, first, sense, share, seed
+):
     rng = np.random.default_rng(seed)
     directions = first + sense * share * math.tau * np.arange(count) / count
     ranges, returned = rng.uniform(0.0, 9.0, count), rng.random(count) < 0.5
 
-    thought_at, lengths, hits = densified(directions, ranges, returned)
+    between, lengths, hits = densified(directions, ranges, returned)
 
-    np.testing.assert_array_equal(directions, thought_at[:count])
+    np.testing.assert_array_equal(directions, between[:count])
     np.testing.assert_array_equal(ranges, lengths[:count])
     np.testing.assert_array_equal(returned, hits[:count])
     assert not hits[count:].any()
-    assert len(thought_at) == len(lengths) == len(hits) > count
-    ahead = np.remainder(directions - thought_at[count:, np.newaxis], math.tau)
+    assert len(between) == len(lengths) == len(hits) > count
+    ahead = np.remainder(directions - between[count:, np.newaxis], math.tau)
     left, right = ahead.argmin(axis=1), ahead.argmax(axis=1)
     assert (lengths[count:] == np.minimum(ranges[left], ranges[right])).all()
 
@@ -145,15 +147,15 @@ def test_thought_beams_lie_between_neighbors_and_are_as_short(count, first, sens
 @pytest.mark.parametrize(("share", "closes"), [(1.0, True), (0.9, False), (0.5, False)])
 def test_the_last_beam_is_beside_the_first_if_the_laser_looks_all_around(share, closes):
     directions = np.linspace(0.0, share * math.tau, 90, endpoint=False)
-    thought_at, _, _ = densified(directions, np.ones(90), np.ones(90, dtype=bool))
+    between, _, _ = densified(directions, np.ones(90), np.ones(90, dtype=bool))
 
-    assert closes is bool((thought_at > directions[-1]).any())
+    assert closes is bool((between > directions[-1]).any())
 
 
 def test_one_beam_is_a_scan_too():
-    thought = densified(np.zeros(1), np.ones(1), np.ones(1, dtype=bool))
+    beams = densified(np.zeros(1), np.ones(1), np.ones(1, dtype=bool))
 
-    assert [1, 1, 1] == [len(one) for one in thought]
+    assert [1, 1, 1] == [len(one) for one in beams]
 
 
 def test_what_does_not_come_back_is_free_for_a_while_unless_it_stands_alone():
@@ -173,7 +175,7 @@ def test_what_does_not_come_back_is_free_for_a_while_unless_it_stands_alone():
     assert 0 == at(120, 0.97)
 
 
-def test_who_walks_away_is_no_thing_for_long():
+def test_a_person_who_walks_away_is_soon_no_obstacle():
     person = Polyline.through([(1.4, 3.0), (1.6, 3.0), (1.5, 3.2)], closed=True)
     grid = LocalGrid.unknown(SIZE)
     for walls in [(*WALLS, person)] * 20 + [WALLS] * 6:
@@ -183,23 +185,23 @@ def test_who_walks_away_is_no_thing_for_long():
 
 
 @pytest.mark.parametrize("pose", [HERE, Pose2(6.5, 1.5, 2.0), Pose2(8.5, 5.0, 0.0)])
-def test_ways_lead_over_free_cells_from_the_robot_on_and_off_all_walls(pose):
+def test_paths_lead_from_the_robot_over_free_cells_and_clear_of_all_walls(pose):
     grid = seen_from(pose, **ALL_AROUND)
     reach = grid.reachable_set(RADIUS)
     returns = shapely.MultiPoint(pose @ scan_at(pose, **ALL_AROUND).points_in_base)
 
     assert len(reach.points) > 500
     for index in range(0, len(reach.points), len(reach.points) // 40):
-        way = reach.path_to(index)
-        np.testing.assert_allclose(reach.points[index], way[-1])
-        assert CELL > np.hypot(*(way[0] - pose.position))
-        steps = np.diff(way, axis=0) / CELL
-        assert (np.abs(steps).max(axis=1, initial=0.0).round(6) == 1.0).all() or len(way) == 1
-        assert (evidence_at(grid, way)[0] < 0).all()
-        assert RADIUS < returns.distance(shapely.MultiPoint(way))
+        path = reach.path_to(index)
+        np.testing.assert_allclose(reach.points[index], path[-1])
+        assert CELL > np.hypot(*(path[0] - pose.position))
+        steps = np.diff(path, axis=0) / CELL
+        assert (np.abs(steps).max(axis=1, initial=0.0).round(6) == 1.0).all() or len(path) == 1
+        assert (evidence_at(grid, path)[0] < 0).all()
+        assert RADIUS < returns.distance(shapely.MultiPoint(path))
 
 
-def test_a_way_is_as_long_as_it_costs_or_shorter():
+def test_a_path_is_no_longer_than_it_costs():
     reach = seen_from(HERE, **ALL_AROUND).reachable_set(RADIUS)
 
     for index in range(0, len(reach.points), len(reach.points) // 40):
@@ -208,7 +210,7 @@ def test_a_way_is_as_long_as_it_costs_or_shorter():
         assert 0.98 * length <= reach.lengths[index]
 
 
-def test_the_nearest_place_is_the_nearest_unless_the_way_or_the_place_itself_costs_more():
+def test_the_nearest_place_is_the_nearest_unless_the_path_or_the_place_itself_costs_more():
     reach = seen_from(Pose2(2.0, 2.0, 0.0)).reachable_set(0.2)
     point = reach.points[reach.lengths.argmax()]
     west = reach.points[:, 0] < point[0]

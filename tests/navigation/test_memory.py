@@ -12,7 +12,7 @@ from pilotage.geometry import Pose2
 from pilotage.localization import BlockedWay, Status
 from pilotage.maps import Route
 from pilotage.navigation.arrival import Arrival, Doubt
-from pilotage.navigation.memory import DETOUR, PLAN_EVERY, Memory
+from pilotage.navigation.memory import DETOUR, Memory
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.route_leg import RouteLeg
 from pilotage.navigation.settings import NavigatorSettings
@@ -20,6 +20,7 @@ from pilotage.navigation.step import Behavior
 from pilotage.perception import LaserScan
 
 SETTINGS = NavigatorSettings(patience=4.0)
+STEP = 0.3  # [s] between plans
 PATH = np.array([[0.0, 0.0], [2.0, 0.0]])
 LEG = RouteLeg(
     Route(("c1", "c2"), ("g1",), 0.1, PATH), PATH, np.array([3.0, 0.0]), "g1", np.array([2.0, 0.0])
@@ -35,10 +36,11 @@ def standing(turned=0.0, **claim):
     )
 
 
-def lasting(plan, seconds, memory=FRESH, position=None):
-    """Keep to a plan and stay where the robot is."""
-    for k in range(round(seconds / PLAN_EVERY)):
-        memory = memory.updated(plan, k * PLAN_EVERY, position or standing(), SETTINGS)
+def lasting(plan, seconds, memory=FRESH, position=None, step=STEP):
+    """Make the same plan again every `step` seconds, and stay where the robot is."""
+    for k in range(round(seconds / step)):
+        made = replace(plan, stamp=(k - 1) * step)
+        memory = memory.updated(made, k * step, position or standing(), SETTINGS)
     return memory
 
 
@@ -48,6 +50,23 @@ def test_a_stall_on_the_route_blocks_the_gateway_ahead_and_makes_the_robot_explo
     assert ("g1",) == memory.blocked.gateway_ids
     assert 1 == memory.detours
     assert 4.0 + DETOUR <= memory.detour_until < 4.5 + DETOUR
+
+
+@pytest.mark.parametrize("step", [0.1, 0.3, 0.5])
+def test_the_time_near_a_gateway_is_counted_in_seconds_however_often_plans_are_made(step):
+    near = replace(LEG, middle=np.array([1.0, 0.0]))
+    memory = lasting(Plan(Behavior.CROSS, path=PATH, leg=near), 3.0, step=step)
+
+    assert memory.blocked.time_near["g1"] == pytest.approx(3.0)
+
+
+def test_a_new_goal_keeps_what_is_blocked_and_forgets_how_long_the_robot_was_near_the_others():
+    near = replace(LEG, middle=np.array([1.0, 0.0]))
+    memory = lasting(Plan(Behavior.CROSS, path=PATH, leg=near), 3.0)
+    memory = memory.with_blocked(replace(memory.blocked, since={"g7": 1.0})).for_new_goal(3.0)
+
+    assert {"g7": 1.0} == memory.blocked.since
+    assert {} == memory.blocked.time_near
 
 
 def test_a_stall_while_exploring_gives_the_frontier_up():
@@ -62,7 +81,7 @@ def test_a_frontier_gets_its_time_after_a_stall_in_which_there_was_none(behavior
     stalled = lasting(Plan(behavior), 4.5)
     memory = stalled
     for k in range(5):
-        memory = memory.updated(Plan(Behavior.EXPLORE, path=PATH), 4.5 + k * PLAN_EVERY, standing(), SETTINGS)
+        memory = memory.updated(Plan(Behavior.EXPLORE, path=PATH), 4.5 + k * STEP, standing(), SETTINGS)
 
     assert 0 == len(memory.exploration.unreachable)
 
@@ -130,7 +149,7 @@ def test_a_stall_before_a_waypoint_tells_of_a_blocked_way_once(waypoint, is_told
     told = []
     memory = FRESH
     for k in range(20):
-        memory = memory.updated(plan, k * PLAN_EVERY, standing(), SETTINGS)
+        memory = memory.updated(replace(plan, stamp=(k - 1) * STEP), k * STEP, standing(), SETTINGS)
         told += [memory.blocked_way] if memory.blocked_way else []
 
     assert told == ([BlockedWay((2.0, 0.0), (5.0, 0.0))] if is_told else [])

@@ -33,7 +33,7 @@ def body(pose, size=SIZE):
     return affinity.translate(affinity.rotate(box, theta, origin=(0, 0), use_radians=True), x, y)
 
 
-@settings(deadline=None, max_examples=80)
+@settings(max_examples=80)
 @given(st.lists(st.tuples(near, near), min_size=1, max_size=6), st.floats(-0.3, 0.8), st.floats(-1.2, 1.2))
 def test_no_command_that_is_allowed_leads_into_an_obstacle(points, linear, angular):
     obstacles, command = np.array(points), Twist(linear, angular)
@@ -44,7 +44,7 @@ def test_no_command_that_is_allowed_leads_into_an_obstacle(points, linear, angul
         assert not any(body(pose).contains(shapely.Point(point)) for point in outside)
 
 
-@settings(deadline=None, max_examples=80)
+@settings(max_examples=80)
 @given(near, near, near, near, st.floats(-math.pi, math.pi))
 def test_contact_of_a_rectangle_with_a_wall_is_that_of_polygons(ax, ay, bx, by, theta):
     wall = shapely.LineString([(ax, ay), (bx, by)])

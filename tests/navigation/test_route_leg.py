@@ -1,4 +1,4 @@
-"""Which way the drawing says, as the robot would see it."""
+"""The route and its next waypoint, in the frame of the robot."""
 
 import math
 
@@ -75,7 +75,7 @@ def test_the_robot_heads_for_a_point_behind_the_gateway_in_the_next_cell(x, y, h
     assert 0.5 < math.dist(behind, gateway.middle) <= 1.0 + 1e-9
 
 
-def test_the_way_leads_from_the_robot_to_the_goal():
+def test_the_path_leads_from_the_robot_to_the_goal():
     sketch_from_base = placed(1.0, 2.5, 0.7)
     leg = led(sketch_from_base, ROOMS, GOAL)
 
@@ -167,7 +167,7 @@ def test_a_closed_gateway_leads_elsewhere():
     assert second.distance > first.distance + 5.0
 
 
-def test_where_all_gateways_are_closed_there_is_no_way():
+def test_where_all_gateways_are_blocked_there_is_no_route():
     sketch_from_base = placed(2.0, 2.0)
     closed = [gateway.gateway_id for gateway in RING.gateways_of(RING.cell_at((2.0, 2.0)))]
 
@@ -199,7 +199,7 @@ def test_a_point_is_taken_inside_to_the_nearest_cell_and_stays_if_it_is(x, y):
         assert math.dist(found, (x, y)) < floor.distance(place) + 0.05
 
 
-def test_around_a_bend_the_robot_heads_for_where_the_way_goes_on():
+def test_around_a_bend_the_robot_heads_for_where_the_path_goes_on():
     block = ([(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)], [(3, 3), (17, 3), (17, 7), (3, 7), (3, 3)])
     sketch_from_base = placed(10.0, 1.0, 1.0)
     leg = led(sketch_from_base, decomposed(block), (18.5, 8.5))

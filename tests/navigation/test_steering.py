@@ -1,4 +1,4 @@
-"""From a way to a command, among things."""
+"""From a path to a command among obstacles, from which the robot can always stop."""
 
 import itertools
 import math
@@ -24,7 +24,7 @@ STILL = Twist(0.0, 0.0)
 
 
 def along(*corners):
-    """Points every 4 cm along a way or a wall."""
+    """Points every 4 cm along a path or a wall."""
     pieces = []
     for start, end in itertools.pairwise(np.array(corners, dtype=float)):
         count = max(2, math.ceil(np.hypot(*(end - start)) / 0.04))
@@ -32,13 +32,13 @@ def along(*corners):
     return np.vstack(pieces)
 
 
-def obey(way, things, start, *, seconds, moving=STILL, how=SETTINGS):
-    """Drive along a way among things, both in the world; poses and twists ten times a second."""
+def obey(path, obstacles, start, *, seconds, moving=STILL, how=SETTINGS):
+    """Drive along a path among obstacles, both in the world; poses and twists ten times a second."""
     pose, now = start, moving
     for _ in range(round(seconds / TIME_STEP)):
-        in_base = pose.inverse() @ way
+        in_base = pose.inverse() @ path
         passed = int(np.hypot(*in_base.T).argmin())
-        command = steer(in_base[passed:], pose.inverse() @ things, BODY.radius, how, now)
+        command = steer(in_base[passed:], pose.inverse() @ obstacles, BODY.radius, how, now)
         now = BODY.obeyed(now, command, TIME_STEP)
         yield pose, now
         pose = pose @ rolled(now, TIME_STEP)
@@ -55,12 +55,12 @@ def stop(start, moving):
     yield pose, now
 
 
-def room_between(moments, things):
-    """Measure from the body to the nearest thing at any time of a drive [m]."""
+def room_between(moments, obstacles):
+    """Measure from the body to the nearest obstacle at any time of a drive [m]."""
     gaps = []
     for pose, now in moments:
         gaps += [
-            np.hypot(*(things - (pose @ rolled(now, share * TIME_STEP)).position).T).min()
+            np.hypot(*(obstacles - (pose @ rolled(now, share * TIME_STEP)).position).T).min()
             for share in (0.0, 0.25, 0.5, 0.75)
         ]
     return min(gaps) - BODY.radius
@@ -73,45 +73,45 @@ def somewhere(rng, *shape):
 
 @st.composite
 def scenes(draw):
-    """Things about a robot that is clear of all of them: lone posts, walls, a corridor; and a generator."""
+    """Obstacles about a robot that is clear of them: lone posts, walls, a corridor; and a generator."""
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     walls = [along(*somewhere(rng, 2)) for _ in range(draw(st.integers(0, 4)))]
-    things = np.vstack([somewhere(rng, draw(st.integers(1, 25))), *walls])
+    obstacles = np.vstack([somewhere(rng, draw(st.integers(1, 25))), *walls])
     if draw(st.booleans()):
         half = draw(st.floats(0.24, 0.8))
-        things = np.vstack([things, along((-1, half), (4, half)), along((-1, -half), (4, -half))])
-    clear = np.hypot(*things.T) > BODY.radius + CLEARANCE
-    return np.vstack([things[clear], (9.0, 9.0)]), rng
+        obstacles = np.vstack([obstacles, along((-1, half), (4, half)), along((-1, -half), (4, -half))])
+    clear = np.hypot(*obstacles.T) > BODY.radius + CLEARANCE
+    return np.vstack([obstacles[clear], (9.0, 9.0)]), rng
 
 
 @settings(max_examples=250)
 @given(scenes(), st.lists(st.floats(0.2, 2.5), min_size=1, max_size=4))
-def test_whatever_the_way_a_robot_that_obeys_stays_clear_of_all_things(scene, times):
-    things, rng = scene
+def test_whatever_the_path_a_robot_that_obeys_stays_clear_of_all_obstacles(scene, times):
+    obstacles, rng = scene
     pose, now = Pose2.identity(), STILL
     for seconds in times:
-        way = along(pose.position, *somewhere(rng, rng.integers(1, 4)))
-        moments = list(obey(way, things, pose, seconds=seconds, moving=now))
-        assert CLEARANCE - 0.004 < room_between(moments, things)
+        path = along(pose.position, *somewhere(rng, rng.integers(1, 4)))
+        moments = list(obey(path, obstacles, pose, seconds=seconds, moving=now))
+        assert CLEARANCE - 0.004 < room_between(moments, obstacles)
         pose, now = moments[-1]
-        assert CLEARANCE - 0.004 < room_between(stop(pose, now), things)
+        assert CLEARANCE - 0.004 < room_between(stop(pose, now), obstacles)
 
 
 @pytest.mark.parametrize("half", [0.26, 0.35, 0.6])
 @pytest.mark.parametrize("turn", [-2.5, -1.0, 1.6, 3.0])
 @pytest.mark.parametrize("seconds", [1.2, 2.7])
 def test_a_robot_at_speed_that_is_sent_back_touches_no_corridor(half, turn, seconds):
-    things = np.vstack([along((-1, half), (8, half)), along((-1, -half), (8, -half))])
-    *_, (pose, now) = obey(along((0, 0), (8, 0)), things, Pose2.identity(), seconds=seconds)
+    obstacles = np.vstack([along((-1, half), (8, half)), along((-1, -half), (8, -half))])
+    *_, (pose, now) = obey(along((0, 0), (8, 0)), obstacles, Pose2.identity(), seconds=seconds)
     back = along(pose.position, pose.position + 2.0 * np.array([math.cos(turn), math.sin(turn)]))
-    moments = list(obey(back, things, pose, seconds=3.0, moving=now))
+    moments = list(obey(back, obstacles, pose, seconds=3.0, moving=now))
 
     assert 0.1 < now.linear
-    assert CLEARANCE - 0.004 < room_between(moments, things)
+    assert CLEARANCE - 0.004 < room_between(moments, obstacles)
 
 
 @given(angles)
-def test_in_the_open_the_end_of_the_way_is_come_to_from_any_heading(heading):
+def test_in_the_open_the_end_of_the_path_is_reached_from_any_heading(heading):
     *_, (pose, now) = obey(along((0, 0), (3, 0)), NOTHING, Pose2(0.0, 0.0, heading), seconds=12.0)
 
     assert 0.2 > math.hypot(pose.x - 3.0, pose.y)
@@ -122,16 +122,16 @@ def test_in_the_open_the_end_of_the_way_is_come_to_from_any_heading(heading):
 def test_the_robot_comes_around_a_corner(half):
     inner = along((-1, half), (2 - half, half), (2 - half, 3))
     outer = along((-1, -half), (2 + half, -half), (2 + half, 3))
-    way = along((0, 0), (2, 0), (2, 2.5))
-    *_, (pose, _) = obey(way, np.vstack([inner, outer]), Pose2.identity(), seconds=20.0)
+    path = along((0, 0), (2, 0), (2, 2.5))
+    *_, (pose, _) = obey(path, np.vstack([inner, outer]), Pose2.identity(), seconds=20.0)
 
     assert 0.3 > math.hypot(pose.x - 2.0, pose.y - 2.5)
 
 
 @given(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0), st.booleans())
-def test_commands_are_within_limits_and_never_lead_back(x, y, blocked):
-    things = np.array([[0.5, 0.1]]) if blocked else NOTHING
-    command = steer(along((0, 0), (x, y)), things, BODY.radius, SETTINGS)
+def test_commands_are_within_limits_and_never_backward(x, y, blocked):
+    obstacles = np.array([[0.5, 0.1]]) if blocked else NOTHING
+    command = steer(along((0, 0), (x, y)), obstacles, BODY.radius, SETTINGS)
 
     assert 0.0 <= command.linear <= SETTINGS.speed
     assert abs(command.angular) <= SETTINGS.turn_rate
@@ -139,17 +139,17 @@ def test_commands_are_within_limits_and_never_lead_back(x, y, blocked):
 
 @given(scenes())
 def test_what_is_mirrored_is_steered_mirrored(scene):
-    things, rng = scene
-    way = along((0.0, 0.0), *somewhere(rng, 3))
-    command = steer(way, things, BODY.radius, SETTINGS)
-    mirrored = steer(way * (1.0, -1.0), things * (1.0, -1.0), BODY.radius, SETTINGS)
+    obstacles, rng = scene
+    path = along((0.0, 0.0), *somewhere(rng, 3))
+    command = steer(path, obstacles, BODY.radius, SETTINGS)
+    mirrored = steer(path * (1.0, -1.0), obstacles * (1.0, -1.0), BODY.radius, SETTINGS)
 
     assert pytest.approx(command.linear) == mirrored.linear
     assert pytest.approx(-command.angular) == mirrored.angular
 
 
 @pytest.mark.parametrize("bearing", [1.7, 2.5, 3.1, -1.7, -2.5, -3.1])
-def test_for_what_lies_behind_the_robot_turns_on_the_spot_the_shorter_way(bearing):
+def test_towards_a_path_behind_it_the_robot_turns_on_the_spot_by_the_smaller_angle(bearing):
     command = steer(
         along((0, 0), (3 * math.cos(bearing), 3 * math.sin(bearing))), NOTHING, BODY.radius, SETTINGS
     )
@@ -191,13 +191,13 @@ def test_the_nearer_a_wall_the_slower():
 @pytest.mark.parametrize("sight", [0.24, 0.3, 0.5, 0.7, 1.0])
 def test_the_less_a_robot_sees_the_slower_it_drives_and_it_touches_nothing(sight):
     wall = np.column_stack([np.full(81, 3.0), np.linspace(-2.0, 2.0, 81)])
-    way = np.array([[0.0, 0.0], [6.0, 0.0]])
+    path = np.array([[0.0, 0.0], [6.0, 0.0]])
     pose, now, fastest = Pose2.identity(), STILL, 0.0
     for _ in range(200):
         in_base = pose.inverse() @ wall
         seen = in_base[np.hypot(*in_base.T) < sight]
         now = BODY.obeyed(
-            now, steer(pose.inverse() @ way, seen, BODY.radius, SETTINGS, now, sight=sight), TIME_STEP
+            now, steer(pose.inverse() @ path, seen, BODY.radius, SETTINGS, now, sight=sight), TIME_STEP
         )
         pose = pose @ rolled(now, TIME_STEP)
         fastest = max(fastest, now.linear)
@@ -225,9 +225,9 @@ def test_a_robot_that_is_too_near_to_a_wall_drives_off_it_and_comes_no_nearer(he
 
 
 @pytest.mark.parametrize("left", [0.0, 0.05, 0.3])
-def test_the_robot_can_stop_at_the_end_of_its_way(left):
-    way = np.array([[0.0, 0.0]]) if left == 0.0 else along((0, 0), (left, 0))
-    command = steer(way, NOTHING, BODY.radius, SETTINGS)
+def test_the_robot_can_stop_at_the_end_of_its_path(left):
+    path = np.array([[0.0, 0.0]]) if left == 0.0 else along((0, 0), (left, 0))
+    command = steer(path, NOTHING, BODY.radius, SETTINGS)
 
     assert command.linear**2 / (2.0 * SETTINGS.braking) <= left + 1e-9
 

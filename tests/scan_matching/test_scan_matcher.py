@@ -180,7 +180,7 @@ def test_shape_alone_follows_more_roughly():
 
 @pytest.mark.parametrize("wrong", [{"window": 0.0}, {"keyframe_distance": math.nan}, {"keyframe_turn": -0.1}])
 def test_invalid_settings_are_rejected(wrong):
-    with pytest.raises(ValueError, match="must be"):
+    with pytest.raises(ValueError, match=f"{next(iter(wrong))} must be"):
         ScanMatchingSettings(**wrong)
 
 

@@ -1,31 +1,19 @@
 """A robot without odometry is followed by its scans alone."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pilotage import LaserScan, Odometry, Pose2, open_log
+from buildings import scan_at
+from pilotage import Odometry, Pose2, open_log
+from pilotage.geometry import Polyline
 from pilotage.scan_matching import MotionPrior, ScanMatcher
 from shared_data import DATA, needs_bags
 
-BEAMS = 360
-
-
-def scan_in_a_room(stamp, pose):
-    """A scan in a room of 8 x 5 m with a niche, from a pose in it."""
-    corners = np.array([[0, 0], [8, 0], [8, 2], [9, 2], [9, 3], [8, 3], [8, 5], [0, 5]], dtype=float)
-    first, second = corners, np.roll(corners, -1, axis=0)
-    along = second - first
-    angles = pose.theta + np.linspace(-np.pi, np.pi, BEAMS, endpoint=False)
-    directions = np.column_stack([np.cos(angles), np.sin(angles)])[:, None]
-    offset = first - pose.position
-    cross = directions[..., 0] * along[:, 1] - directions[..., 1] * along[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ranges = (offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]) / cross
-        share = (offset[:, 0] * directions[..., 1] - offset[:, 1] * directions[..., 0]) / cross
-    hits = np.where((ranges > 0) & (share >= 0) & (share <= 1), ranges, np.inf).min(axis=1)
-    return LaserScan(stamp, -np.pi, 2 * np.pi / BEAMS, hits, range_max=30.0)
+ROOM = Polyline.through([(0, 0), (8, 0), (8, 2), (9, 2), (9, 3), (8, 3), (8, 5), (0, 5)], closed=True)
+"""A room of 8 x 5 m with a niche."""
 
 
 def test_a_drive_on_an_arc_is_followed_though_odometry_says_nothing():
@@ -34,7 +22,8 @@ def test_a_drive_on_an_arc_is_followed_though_odometry_says_nothing():
     start = pose
     for k in range(40):
         unknown = Odometry(0.1 * k, Pose2(7.0 * k, 0.0, 1.0), is_known=False)
-        motion = matcher.update(scan_in_a_room(0.1 * k, pose), unknown)
+        scan = scan_at(pose, 0.1 * k, beams=360, fov=math.radians(359.0), walls=(ROOM,))
+        motion = matcher.update(scan, unknown)
         pose = pose @ step
     true = start.inverse() @ (pose @ step.inverse())
 

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from shapely.geometry import LinearRing, LineString
 
@@ -13,7 +13,6 @@ from pilotage.shape import Simplification, relevances, simplify, simplify_all
 thresholds = st.floats(0.0, 3.0)
 
 
-@settings(deadline=None)
 @given(strategies.polylines(), thresholds)
 def test_what_is_left_is_a_part_in_order_and_ends_survive(polyline, min_relevance):
     simple = simplify(polyline, Simplification(min_relevance))
@@ -25,7 +24,6 @@ def test_what_is_left_is_a_part_in_order_and_ends_survive(polyline, min_relevanc
         assert polyline.vertices[[0, -1]].tolist() == simple.vertices[[0, -1]].tolist()
 
 
-@settings(deadline=None)
 @given(strategies.polylines(), thresholds)
 def test_simplifying_twice_changes_nothing(polyline, min_relevance):
     until = Simplification(min_relevance)
@@ -34,7 +32,6 @@ def test_simplifying_twice_changes_nothing(polyline, min_relevance):
     assert once == simplify(once, until)
 
 
-@settings(deadline=None)
 @given(strategies.graphs_of_functions(), thresholds)
 def test_all_that_is_left_of_a_function_s_graph_is_relevant(polyline, min_relevance):
     """A graph bars no deletion on itself: its triangles hold no vertex between their corners' columns."""
@@ -43,7 +40,6 @@ def test_all_that_is_left_of_a_function_s_graph_is_relevant(polyline, min_releva
     assert relevances(simple).min() >= min_relevance
 
 
-@settings(deadline=None)
 @given(strategies.star_shaped_outlines(), thresholds)
 def test_an_outline_never_comes_to_cross_itself(outline, min_relevance):
     simple = simplify(outline, Simplification(min_relevance))
@@ -52,7 +48,6 @@ def test_an_outline_never_comes_to_cross_itself(outline, min_relevance):
     assert LinearRing(simple.vertices).is_simple
 
 
-@settings(deadline=None)
 @given(strategies.graphs_of_functions(), strategies.graphs_of_functions(above=3.1), thresholds)
 def test_two_lines_never_come_to_cross_each_other(lower, upper, min_relevance):
     simple = simplify_all([lower, upper], Simplification(min_relevance))
@@ -60,7 +55,6 @@ def test_two_lines_never_come_to_cross_each_other(lower, upper, min_relevance):
     assert not LineString(simple[0].vertices).intersects(LineString(simple[1].vertices))
 
 
-@settings(deadline=None)
 @given(strategies.polylines(), strategies.poses, strategies.scales)
 def test_relevance_turns_with_the_line_and_grows_with_it(polyline, pose, scale):
     expected = scale * relevances(polyline)

@@ -62,7 +62,7 @@ def test_a_heading_is_carried_to_the_drawing(heading):
 
 
 @given(SEEDS, st.floats(0.0, 1.0))
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 def test_the_robot_can_go_to_the_goal_and_to_every_room(seed, severity):
     goal = ATLAS.cell_graph.cells[-1].center
     made = make_real(ATLAS, severity, np.random.default_rng(seed), goal=goal)

@@ -36,7 +36,7 @@ def test_the_way_round_the_end_of_a_wall_is_as_long_as_geometry_says():
 
 
 @given(ends=st.tuples(*[st.floats(0.4, 7.6)] * 4), seed=st.integers(0, 5))
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 def test_the_robot_touches_nothing_on_the_way_and_it_is_no_shorter_back(ends, seed):
     rng = np.random.default_rng(seed)
     corners = rng.uniform(1, 10, (6, 2))

@@ -87,7 +87,7 @@ def check_agreement(found: Fit, sightings: Sequence[Sighting]) -> None:
 
 
 def laid_as_drawn(found: Fit, sketch: SchematicMap) -> Fit:
-    """Turn all as the sheet lies, and move the lower left of the strokes near the origin."""
+    """Turn what was found as the drawing lies on its sheet, the lower left of the strokes at 0, 0."""
     turn = Pose2(0.0, 0.0, -found.elastic.rough.pose.theta)
     vertices = np.vstack([stroke.vertices for stroke in sketch.strokes])
     low = (turn @ (found.elastic @ vertices)).min(axis=0)
@@ -118,7 +118,7 @@ def find_seen(atlas: Atlas, sightings: Sequence[Sighting], found: Fit) -> list[N
 
 
 def without_gaps(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Take a single piece between two that were seen as seen."""
+    """Count a single piece between two that were seen as seen, too."""
     filled = seen.copy()
     filled[1:-1] |= seen[:-2] & seen[2:]
     return filled

@@ -80,11 +80,6 @@ def carried_line(line: Polyline, elastic: ElasticMap) -> Polyline:
     return Polyline(simplified(vertices), line.closed)
 
 
-def carried_lines(lines: tuple[Polyline, ...], elastic: ElasticMap) -> tuple[Polyline, ...]:
-    """Carry polylines."""
-    return tuple(carried_line(line, elastic) for line in lines)
-
-
 def carried_polygon(polygon: shapely.Polygon, elastic: ElasticMap) -> shapely.Geometry:
     """Carry a polygon with its holes."""
     shell, *holes = (

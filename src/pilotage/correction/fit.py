@@ -23,24 +23,24 @@ from pilotage.geometry import Array, Polyline
 from pilotage.maps import SchematicMap
 
 SPACING = 1.5
-"""[m] of the spline's grid."""
+"""[m] Distance between the nodes of the spline's grid."""
 MOST_NODES = 6_000
 """Nodes of the grid, at most."""
 STAGES = ((300.0, 1.5, 6), (300.0, 1.0, 2), (100.0, 0.5, 2))
 """Stiffness of the bending energy, gate of the robust kernel [m] and rounds of each stage."""
-RATHER_RIGID = 0.3
+RIGIDITY = 0.3
 """Weight of the squared gradient's difference from the similarity: what is not seen keeps its shape."""
 WALL_STD = 0.1
-"""[m] of a surface point from its wall."""
+"""[m] Standard deviation of a surface point from its wall."""
 POST_STD = 0.07
-"""[m] of an edge from the post that it is taken for."""
-POINTS_AN_EYE = 8.0
+"""[m] Standard deviation of an edge from the post that it is taken for."""
+INDEPENDENT_POINTS = 8.0
 """Number of independent surface points in a sighting: more of them err together."""
 THICKNESS_STD = 0.01
 """[m] Standard deviation of half the thickness of a wall around 0, before anything is seen."""
 PLACE_STD, PLACE_STD_SHARE = 0.7, 0.15
-"""[m, share of its distance] of a point seen from an estimate: where the estimate puts it on the drawing."""
-LATER = 0.05
+"""[m, share of its distance] Standard deviation of where an estimate puts a point near the robot."""
+LATER_WEIGHT = 0.05
 """Weight of the estimates once walls are associated."""
 NEAR, EVERY = 6.0, 6
 """Of the surface points within this distance [m] every sixth goes with the estimate."""
@@ -156,7 +156,7 @@ class Problem:
         self.pieces, self.surfaces, self.beliefs, self.grid = pieces, surfaces, beliefs, grid
         bending, gradient = grid.bending, grid.gradient
         self._bending = bending.T @ bending
-        self._rigid = RATHER_RIGID * gradient.T @ gradient
+        self._rigid = RIGIDITY * gradient.T @ gradient
         self._rigid_sums = self._rigid @ grid.nodes
 
     def solved(self, last: Fit, stiffness: float, gate: float, *, by_estimates: bool) -> Fit:
@@ -186,7 +186,7 @@ class Problem:
         front, back = csr_matrix((len(wanted), 2 * nodes)), csr_matrix((len(wanted), 1))
         equations = [(hstack([front, motions, back]), wanted)]
         equations += self._belief_rows(
-            last, max(ESTIMATE_GATE * gate, MIN_ESTIMATE_GATE), 1.0 if by_estimates else LATER
+            last, max(ESTIMATE_GATE * gate, MIN_ESTIMATE_GATE), 1.0 if by_estimates else LATER_WEIGHT
         )
         if not by_estimates and len(self.surfaces.points):
             equations.append(self._wall_rows(last, gate))
@@ -216,7 +216,7 @@ class Problem:
         off = ((basis @ last.elastic.coefficients - points) * normals).sum(axis=1) + last.half_thickness
         kernel = robust(off, gate)
         counts = np.bincount(owners, kernel, len(path.poses))[owners]
-        weights = np.sqrt(kernel * np.minimum(1.0, POINTS_AN_EYE / np.maximum(counts, 1.0))) / WALL_STD
+        weights = np.sqrt(kernel * np.minimum(1.0, INDEPENDENT_POINTS / np.maximum(counts, 1.0))) / WALL_STD
         direction = normals * weights[:, np.newaxis]
         arms = points - path.places[owners]
         turning = direction[:, 1] * arms[:, 0] - direction[:, 0] * arms[:, 1]

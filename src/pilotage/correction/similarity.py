@@ -8,7 +8,7 @@ import numpy as np
 from pilotage.geometry import Array, Similarity2, fit_similarity
 
 TRIED = 40
-"""Pairs of places of which any two make a first guess of the similarity."""
+"""Number of pairs of points that are tried; any two of them make a first guess of the similarity."""
 GATES = (10.0, 10.0, 6.0, 4.0, 4.0, 4.0)
 """[m] of the robust kernel while the similarity is found."""
 

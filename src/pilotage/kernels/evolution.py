@@ -89,6 +89,21 @@ def find_in_triangle(
     return NONE
 
 
+def link_vertices(
+    starts: NDArray[np.int64], closed: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Find the vertex before and after each, NONE at open ends, and the run that it is in, (n,) each."""
+    n = starts[-1]
+    previous, following, run_of = np.arange(-1, n - 1), np.arange(1, n + 1), np.zeros(n, dtype=np.int64)
+    for run in range(len(closed)):
+        first, last = starts[run], starts[run + 1] - 1
+        if first <= last:
+            run_of[first : last + 1] = run
+            previous[first] = last if closed[run] else NONE
+            following[last] = first if closed[run] else NONE
+    return previous, following, run_of
+
+
 def evolve_runs(
     xy: NDArray[np.float64],
     starts: NDArray[np.int64],
@@ -127,15 +142,8 @@ def evolve_runs(
     keep = np.ones(n, dtype=np.bool_)
     if n == 0:
         return keep
-    previous, following = np.arange(-1, n - 1), np.arange(1, n + 1)
-    run_of, left = np.zeros(n, dtype=np.int64), np.diff(starts)
-    for run in range(len(left)):
-        first, last = starts[run], starts[run + 1] - 1
-        if left[run] > 0:
-            run_of[first : last + 1] = run
-            previous[first] = last if closed[run] else NONE
-            following[last] = first if closed[run] else NONE
-
+    previous, following, run_of = link_vertices(starts, closed)
+    left = np.diff(starts)  # vertices that each run has left
     grid = sort_into_grid(xy)
     blocker = np.full(n, NONE)  # the vertex that this one waits for
     has_waiting = np.zeros(n, dtype=np.bool_)  # whether another waits for this one

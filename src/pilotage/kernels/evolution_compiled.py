@@ -11,6 +11,7 @@ for helper in (
     evolution.is_in_triangle,
     evolution.sort_into_grid,
     evolution.find_in_triangle,
+    evolution.link_vertices,
 ):
     register_jitable(helper)  # callable from compiled code, and still plain Python for all others
 

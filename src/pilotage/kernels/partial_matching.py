@@ -81,6 +81,25 @@ def step_cost(
 
 
 @njit(cache=True)
+def trace_back(
+    before: NDArray[np.int64], is_cut: NDArray[np.bool_], i: int, j: int, path: NDArray[np.int64], size: int
+) -> tuple[int, bool]:
+    """Write the vertex pairs of the match that ends at i, j to `path`, before the `size` that stand there.
+
+    Returns how many pairs there are then, and whether the first segment is cut.
+    """
+    first_cut = False
+    while i != START:
+        path[size, 0], path[size, 1], size = i, j, size + 1
+        if first_cut:
+            break
+        first_cut = is_cut[i, j]
+        i, j = before[i, j]
+    path[:size] = path[:size][::-1].copy()
+    return size, first_cut
+
+
+@njit(cache=True)
 def cheapest_match(
     seen: Chain, known: Chain, pose: tuple[float, float, float], prices: Prices, path: NDArray[np.int64]
 ) -> tuple[float, int, bool, bool]:
@@ -144,17 +163,9 @@ def cheapest_match(
                 if cost < least:
                     least, end_i, end_j, last_cut = cost, i, j, True
 
-    size = 0
     if last_cut:
-        path[0, 0], path[0, 1], size = end_i + 1, end_j + 1, 1
-    i, j, first_cut = end_i, end_j, False
-    while i != START:
-        path[size, 0], path[size, 1], size = i, j, size + 1
-        if first_cut:
-            break
-        first_cut = is_cut[i, j]
-        i, j = before[i, j]
-    path[:size] = path[:size][::-1].copy()
+        path[0, 0], path[0, 1] = end_i + 1, end_j + 1
+    size, first_cut = trace_back(before, is_cut, end_i, end_j, path, 1 if last_cut else 0)
     return least, size, first_cut, last_cut
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.kernels.compiling import njit
+from pilotage.kernels.samples import Samples
 from pilotage.kernels.segment_field import NONE, SegmentField
 
 CUTOFF = 3.0
@@ -32,16 +33,14 @@ def solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[n
 
 @njit(cache=True)
 def linearize(
-    points: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    weights: NDArray[np.float64],
+    samples: Samples,
     field: SegmentField,
     pose: NDArray[np.float64],
     scale: float,
     min_cosine: float,
     overhang: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Build the normal equations of all points at a pose (x, y, theta).
+    """Build the normal equations of all samples at a pose (x, y, theta).
 
     A point counts with the weight of Geman and McClure, 1 / (1 + (e / scale)^2)^2, up to an error e of
     `CUTOFF` scales, if its own contour runs the same way as the nearest segment and it lies no more than
@@ -52,6 +51,7 @@ def linearize(
     hessian, gradient, inlier_weight
         (3, 3), (3,), and the sum of weights.
     """
+    points, directions, weights = samples
     hessian, gradient = np.zeros((3, 3)), np.zeros(3)
     inlier_weight = 0.0
     c, s = math.cos(pose[2]), math.sin(pose[2])
@@ -95,9 +95,7 @@ def linearize(
 
 @njit(cache=True)
 def refine_pose(
-    points: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    weights: NDArray[np.float64],
+    samples: Samples,
     field: SegmentField,
     start: NDArray[np.float64],
     prior: NDArray[np.float64],
@@ -120,14 +118,10 @@ def refine_pose(
     """
     pose = start.copy()
     for scale in scales:
-        hessian, gradient, _ = linearize(
-            points, directions, weights, field, pose, scale, min_cosine, overhang
-        )
+        hessian, gradient, _ = linearize(samples, field, pose, scale, min_cosine, overhang)
         delta = pose - prior
         delta[2] -= math.tau * round(delta[2] / math.tau)
         hold = information / (1.0 + delta @ (information @ delta) / robust_scale)
         pose -= solve_symmetric(hessian + hold, gradient + hold @ delta)
-    hessian, _, inlier_weight = linearize(
-        points, directions, weights, field, pose, scales[-1], min_cosine, overhang
-    )
+    hessian, _, inlier_weight = linearize(samples, field, pose, scales[-1], min_cosine, overhang)
     return pose, hessian, inlier_weight

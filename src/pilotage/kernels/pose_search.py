@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.kernels.compiling import njit
+from pilotage.kernels.samples import Samples
 from pilotage.kernels.segment_field import NONE, SegmentField
 
 
 @njit(cache=True)
 def add_place_scores(
     scores: NDArray[np.float64],
-    points: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    weights: NDArray[np.float64],
+    samples: Samples,
     field: SegmentField,
     corner: NDArray[np.float64],
     heading: float,
@@ -26,11 +25,12 @@ def add_place_scores(
     scale: float,
     min_cosine: float,
 ) -> None:
-    """Add, for places (rows, columns), the weights of the points near a segment that runs their way.
+    """Add, for places (rows, columns), the weights of the samples near a segment that runs their way.
 
     The places start at a `corner` (x, y) and lie `stride` cells of the field apart. A point at distance d
     counts 1 / (1 + (d / scale)^2).
     """
+    points, directions, weights = samples
     rows, columns = field.nearest.shape
     c, s = math.cos(heading), math.sin(heading)
     for i in range(len(points)):
@@ -57,10 +57,25 @@ def add_place_scores(
 
 
 @njit(cache=True)
+def take_peak(scores: NDArray[np.float64]) -> tuple[int, int, int]:
+    """Find the best of all scores (turns, rows, columns), and wipe it out with those around it.
+
+    If all are wiped out it is the middle one.
+    """
+    turns, rows, columns = scores.shape
+    best, h, iy, ix = -np.inf, turns // 2, rows // 2, columns // 2
+    for i in range(turns):
+        for j in range(rows):
+            for k in range(columns):
+                if scores[i, j, k] > best:
+                    best, h, iy, ix = scores[i, j, k], i, j, k
+    scores[max(0, h - 1) : h + 2, max(0, iy - 2) : iy + 3, max(0, ix - 2) : ix + 3] = -np.inf
+    return h, iy, ix
+
+
+@njit(cache=True)
 def search_poses(
-    points: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    weights: NDArray[np.float64],
+    samples: Samples,
     field: SegmentField,
     prior: NDArray[np.float64],
     stds: NDArray[np.float64],
@@ -77,8 +92,6 @@ def search_poses(
 
     Parameters
     ----------
-    points, directions, weights
-        Samples of the scan in the base frame, (n, 2), (n, 2), (n,).
     stds, window
         Standard deviations of the prior, and how far from it to look: place and heading, (2,) each.
     turn_step, stride
@@ -92,12 +105,10 @@ def search_poses(
     side, turns = 2 * half + 1, 2 * half_turns + 1
     corner = prior[:2] - half * step
     scores = np.zeros((turns, side, side))
-    total = max(weights.sum(), 1.0)
+    total = max(samples.weights.sum(), 1.0)
     for h in range(turns):
         turn = (h - half_turns) * turn_step
-        add_place_scores(
-            scores[h], points, directions, weights, field, corner, prior[2] + turn, stride, scale, min_cosine
-        )
+        add_place_scores(scores[h], samples, field, corner, prior[2] + turn, stride, scale, min_cosine)
         for iy in range(side):
             for ix in range(side):
                 place = ((ix - half) ** 2 + (iy - half) ** 2) * (step / stds[0]) ** 2
@@ -107,13 +118,7 @@ def search_poses(
                 )
     poses = np.empty((count, 3))
     for n in range(count):
-        best, h, iy, ix = -np.inf, half_turns, half, half
-        for i in range(turns):
-            for j in range(side):
-                for k in range(side):
-                    if scores[i, j, k] > best:
-                        best, h, iy, ix = scores[i, j, k], i, j, k
+        h, iy, ix = take_peak(scores)
         poses[n, 0], poses[n, 1] = corner[0] + ix * step, corner[1] + iy * step
         poses[n, 2] = prior[2] + (h - half_turns) * turn_step
-        scores[max(0, h - 1) : h + 2, max(0, iy - 2) : iy + 3, max(0, ix - 2) : ix + 3] = -np.inf
     return poses

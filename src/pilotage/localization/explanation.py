@@ -102,9 +102,10 @@ def explain(
 def _readings(
     sketch_from_base: Affine2, keyframe: Keyframe, walls: Array, model: SensorModel
 ) -> tuple[NDArray[np.intp], Array, Array, Array]:
-    """Return of each reading its wall, e = log(predicted / measured), log-ratio, share of a hit; (m,) each.
+    """Return for each reading the wall that it faces, e, its log-ratio and its probability of a hit, (m,).
 
-    Readings that face no wall are left out, and missing ones where none was to be expected.
+    Here e is log(predicted / measured). Readings that face no wall are left out, and so are beams without
+    return where none was to be expected.
     """
     scan, visibility = keyframe.scan, kernels.visibility
     angles = scan.beams / visibility.HEADINGS * math.tau

@@ -222,18 +222,10 @@ class Localizer:
         self._belief = belief.moved(belief.motion, self.estimate.stamp, self.atlas)
 
     def _births(self, belief: Belief, share: float) -> Particles:
-        """Let tracks be born where a search of the whole drawing explains the last metres (3.4).
-
-        A birth says that the robot was carried there, or was on no drawn place, when the window began. Its
-        mass is the evidence of the window there, over the evidence that all tracks together had since.
-        """
-        settings = self.settings
-        distance = max(belief.window[-1].travel - belief.searched, MIN_CARRIED)
-        count = round(share * settings.proposals)
+        """Let tracks be born where a search of the whole drawing explains the last metres (3.4)."""
+        count = round(share * self.settings.proposals)
         found = global_search(belief.window, self._model, self._prior, count, self._rng)
-        since = sum(log_total for _, log_total in belief.log_totals[1:])
-        log_prior = math.log(rare(settings.tracks.moving * distance)) + belief.log_told
-        return found.resampled(BIRTH_COUNT, self._rng).scaled(log_prior - since)
+        return found.resampled(BIRTH_COUNT, self._rng).scaled(log_birth_factor(belief, self.settings.tracks))
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:
         """Measure the fit of a scan at the leading track, if there is one."""
@@ -241,6 +233,20 @@ class Localizer:
             return ()
         leading = tracks.tracks[0].particles
         return (self._model.fit(leading.states[:, int(leading.log_weights.argmax())], scan),)
+
+
+def log_birth_factor(belief: Belief, settings: TrackSettings) -> float:
+    """Return what the log-mass of a birth adds to the log-evidence of the window there [nats].
+
+    A birth says that the robot was carried there, or was on no drawn place, when the window began. By Bayes'
+    rule its mass is the prior of that, times the evidence of the window there, over the evidence that all
+    tracks together had since. That of the first keyframe is left out: a search weighs a window by a few of
+    its keyframes, so births are weak already, and with it fewer runs ended right (decision 0023).
+    """
+    distance = max(belief.window[-1].travel - belief.searched, MIN_CARRIED)
+    log_prior = math.log(rare(settings.moving * distance)) + belief.log_told
+    since = sum(log_total for _, log_total in belief.log_totals[1:])
+    return log_prior - since
 
 
 def search_effort(belief: Belief) -> float:

@@ -1,6 +1,7 @@
 """What the robot keeps from plan to plan: stalls, blocked gateways, doubts at the goal, frontiers."""
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 
 from pilotage.localization import BlockedWay, Estimate, Status
@@ -13,9 +14,6 @@ from pilotage.navigation.settings import NavigatorSettings
 from pilotage.navigation.stall import StallDetector
 from pilotage.navigation.step import Behavior
 from pilotage.perception import LaserScan
-
-PLAN_EVERY = 0.3
-"""Time [s] between plans."""
 
 ALL_AROUND = math.radians(30.0)
 """A scanner that leaves out less than this [rad] sees all around and need not turn."""
@@ -44,17 +42,25 @@ class Memory:
     blocked_way: BlockedWay | None = None  # in odom; found blocked on the route since the last plan
 
     @classmethod
-    def at_start(cls, scan: LaserScan, estimate: Estimate) -> "Memory":
-        """Begin with the first scan; the robot looks around if it does not know its place."""
+    def at_start(cls, scan: LaserScan, estimate: Estimate, blocked: Collection[str] = ()) -> "Memory":
+        """Begin with the first scan; the robot looks around if it does not know its place.
+
+        `blocked` are ids of gateways that were found blocked before.
+        """
         unseen = math.tau - (len(scan) - 1) * abs(scan.angle_increment)
         unseen = unseen if unseen > ALL_AROUND else 0.0
-        return cls(scan.stamp, unseen, 0.0 if estimate.status is Status.LOCATED else unseen)
+        return cls(
+            began=scan.stamp,
+            unseen_angle=unseen,
+            look_until=0.0 if estimate.status is Status.LOCATED else unseen,
+            blocked=BlockedGateways(dict.fromkeys(blocked, scan.stamp)),
+        )
 
     def updated(
         self, plan: Plan, stamp: float, position: DeadReckoning, settings: NavigatorSettings
     ) -> "Memory":
         """Take note of the last plan, of the time, and of where the robot is now."""
-        memory = self._after(plan, position, settings)
+        memory = self._after(plan, stamp, position, settings)
         if position.turned < memory.look_until:
             return replace(memory, stall=StallDetector())
         estimate, here = position.estimate, position.odom_from_base.position
@@ -74,14 +80,17 @@ class Memory:
     def for_new_goal(self, stamp: float) -> "Memory":
         """Begin anew at a time [s], but keep what was found blocked."""
         fresh = replace(self, began=stamp, stall=StallDetector(), arrival=Arrival(), detours=0)
-        return replace(fresh, detour_until=-math.inf, mismatch_since=math.inf)
+        blocked = BlockedGateways(self.blocked.since)
+        return replace(fresh, blocked=blocked, detour_until=-math.inf, mismatch_since=math.inf)
 
     def with_blocked(self, blocked: BlockedGateways) -> "Memory":
         """Replace the blocked gateways."""
         return replace(self, blocked=blocked)
 
-    def _after(self, plan: Plan, position: DeadReckoning, settings: NavigatorSettings) -> "Memory":
-        """Take note of the last plan."""
+    def _after(
+        self, plan: Plan, stamp: float, position: DeadReckoning, settings: NavigatorSettings
+    ) -> "Memory":
+        """Take note of the last plan, which was followed until the time `stamp` [s]."""
         target = plan.path[-1] if plan.behavior is Behavior.EXPLORE else None
         memory = replace(self, exploration=replace(self.exploration, target=target), blocked_way=None)
         if plan.arrival is not None:
@@ -93,8 +102,8 @@ class Memory:
             blocked = self.blocked.stayed_near(
                 plan.leg,
                 position.odom_from_base.position,
-                stamp=plan.stamp,
-                lasted=PLAN_EVERY,
+                stamp=stamp,
+                lasted=stamp - plan.stamp,
                 patience=settings.patience,
             )
             memory = replace(memory, blocked=blocked)

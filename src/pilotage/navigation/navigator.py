@@ -13,11 +13,10 @@ from pilotage.maps import RouteError
 from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.behaviors import make_plan
-from pilotage.navigation.blocked_gateways import BlockedGateways
 from pilotage.navigation.dead_reckoning import DeadReckoning
 from pilotage.navigation.goal import find_goal
 from pilotage.navigation.local_grid import LocalGrid
-from pilotage.navigation.memory import PLAN_EVERY, Memory
+from pilotage.navigation.memory import Memory
 from pilotage.navigation.plan import Plan
 from pilotage.navigation.planner import RoutePlanner
 from pilotage.navigation.settings import NavigatorSettings
@@ -26,6 +25,9 @@ from pilotage.navigation.steering import steer, turn, turn_on_the_spot
 from pilotage.navigation.step import Behavior, Outcome, Place, Step
 from pilotage.navigation.tour import HOME, Tour, tour_of
 from pilotage.perception import LaserScan, Odometry
+
+PLAN_EVERY = 0.3
+"""Least time [s] between plans."""
 
 TURNING = 0.7
 """Share of its fastest turn at which the robot looks around."""
@@ -67,7 +69,7 @@ class Navigator:
         self.settings = settings if settings is not None else NavigatorSettings()
         self.tour = tour_of(goal)
         self.planner = self._first_planner(localizer)
-        unknown = sorted(set(blocked) - {gateway.gateway_id for gateway in self.planner.graph.gateways})
+        unknown = sorted(set(blocked) - self.planner.graph.gateway_ids)
         if unknown:
             raise ValueError(f"blocked must hold ids of gateways of this drawing, got {', '.join(unknown)}")
         self.zones = localizer.atlas.sketch.zones
@@ -89,9 +91,7 @@ class Navigator:
         self._find_home()
         self.local_grid = self.local_grid.seen(scan, self.position.odom_from_base)
         if self.memory is None:
-            self.memory = Memory.at_start(scan, self.position.localized)
-            since = dict.fromkeys(self._blocked_before, scan.stamp)
-            self.memory = self.memory.with_blocked(BlockedGateways(since))
+            self.memory = Memory.at_start(scan, self.position.localized, self._blocked_before)
         if self.plan.outcome is None and self._is_due(scan.stamp, self.memory):
             self.memory = self.memory.updated(self.plan, scan.stamp, self.position, self.settings)
             if self.memory.blocked_way is not None and not self.zones.keep_out:  # else a zone may block it
@@ -176,19 +176,19 @@ class Navigator:
             leg, blocked = self.planner.leg(estimate, memory.blocked)
             memory = memory.with_blocked(blocked)
         return Situation(
-            stamp,
-            estimate,
-            position.twist,
-            len(position.trail) > 1,
-            position.turned,
-            position.trail,
-            self.local_grid,
-            self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
-            memory,
-            self.planner,
-            leg,
-            position.localizer.sample,
-            self.settings,
+            stamp=stamp,
+            estimate=estimate,
+            twist=position.twist,
+            has_moved=len(position.trail) > 1,
+            turned=position.turned,
+            trail=position.trail,
+            local_grid=self.local_grid,
+            reachable=self._allowed_grid(knows=knows).reachable_set(self.settings.radius),
+            memory=memory,
+            planner=self.planner,
+            leg=leg,
+            sample=position.localizer.sample,
+            settings=self.settings,
         )
 
     def _allowed_grid(self, *, knows: bool) -> LocalGrid:

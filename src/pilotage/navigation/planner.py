@@ -27,16 +27,20 @@ class RoutePlanner:
 
         If all routes are blocked, all gateways are open again; None if there is still no route.
         """
-        for candidate in (blocked, blocked.all_reopened()) if blocked.gateway_ids else (blocked,):
-            try:
-                leg = next_waypoint(
-                    estimate.sketch_from_base, self.roadmap, self.goal.point, candidate.gateway_ids
-                )
-            except RouteError:
-                blocked = candidate
-            else:
-                return leg, candidate
-        return None, blocked
+        leg = self._leg(estimate, blocked)
+        if leg is None and blocked.gateway_ids:
+            blocked = blocked.all_reopened()
+            leg = self._leg(estimate, blocked)
+        return leg, blocked
+
+    def _leg(self, estimate: Estimate, blocked: BlockedGateways) -> RouteLeg | None:
+        """Find the next leg of the route; None if no route avoids the blocked gateways."""
+        try:
+            return next_waypoint(
+                estimate.sketch_from_base, self.roadmap, self.goal.point, blocked.gateway_ids
+            )
+        except RouteError:
+            return None
 
     def cost_to_go(self, blocked: BlockedGateways) -> CostToGo:
         """Find the cost of the route from everywhere; kept while the same gateways are blocked."""

@@ -1,7 +1,6 @@
 """One robot on one drawing: readings, starts and goals in; beliefs and commands out. It knows no network."""
 
 import math
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -62,17 +61,19 @@ class Session:
         self._anchor: tuple[Pose2, Pose2] | None = None  # odom_from_base of scan matching, and map_from_base
         self._keeps_sightings = keeps_sightings
         self.sightings: list[Sighting] = []  # by which the drawing can be corrected, if they are kept
-        if resumed is not None:
-            self.sightings += resumed.sightings
         self.sightings_began = 0  # how often they were begun anew, or made fewer
         self._settings, self._seed, self._scale = settings, seed, scale
-        self._blocked: tuple[str, ...] = () if resumed is None else known_gateways(atlas, resumed.blocked)
+        self._blocked: tuple[str, ...] = ()
         if resumed is None:
             self._localizer = Localizer(atlas, settings[0], seed=seed, start=start, scale=scale)
         else:
             self._localizer = Localizer.resumed(
                 atlas, resumed.localizer, settings[0], scale=scale, stood=True
             )
+            self.sightings += resumed.sightings
+            graph = atlas.cell_graph
+            if graph is not None:  # other settings may have divided the drawing otherwise
+                self._blocked = tuple(one for one in resumed.blocked if one in graph.gateway_ids)
         self.atlas = self._localizer.atlas
         self._navigator: Navigator | None = None
         self._reckoning = DeadReckoning(self._localizer)
@@ -210,10 +211,3 @@ class Session:
         self._is_settled = True
         if abs(math.log(estimate.scale / self.frame.scale)) > OTHER_SCALE:
             self.frame = MapFrame(self.atlas.sketch, estimate.scale)
-
-
-def known_gateways(atlas: Atlas, gateway_ids: Collection[str]) -> tuple[str, ...]:
-    """Keep the ids of gateways that the drawing has: other settings may have divided it otherwise."""
-    gateways = () if atlas.cell_graph is None else atlas.cell_graph.gateways
-    known = {gateway.gateway_id for gateway in gateways}
-    return tuple(one for one in gateway_ids if one in known)

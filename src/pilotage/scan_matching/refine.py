@@ -10,6 +10,7 @@ import numpy as np
 
 from pilotage import kernels
 from pilotage.geometry import Array, Pose2, segments_of
+from pilotage.kernels.samples import Samples
 from pilotage.scan_matching.local_map import LocalMap
 from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise
 from pilotage.shape import PartialShape
@@ -72,14 +73,6 @@ LOST_LIMITS = 3.0, math.radians(60.0)
 """[m, rad] ... but not farther than this."""
 
 
-class Samples(NamedTuple):
-    """Points along the shapes of a scan, in the base frame."""
-
-    points: Array  # (n, 2)
-    directions: Array  # (n, 2)
-    weights: Array  # (n,)
-
-
 class Fit(NamedTuple):
     """A refined pose."""
 
@@ -131,7 +124,7 @@ def fit_at(samples: Samples, local_map: LocalMap, pose: Pose2) -> Fit:
     """Tell how well a pose that was found otherwise fits."""
     at = np.array([pose.x, pose.y, pose.theta])
     hessian, _, inlier_weight = kernels.point_to_segment.linearize(
-        *samples, local_map.segment_field, at, KERNEL_SCALES[-1], MIN_COSINE, OVERHANG
+        samples, local_map.segment_field, at, KERNEL_SCALES[-1], MIN_COSINE, OVERHANG
     )
     return Fit(at, hessian, inlier_weight)
 
@@ -148,11 +141,8 @@ def _search(samples: Samples, local_map: LocalMap, prior: MotionPrior, window: t
     """Find poses from which refinement may start, (n, 3)."""
     every = max(1, len(samples.points) // SEARCH_POINTS)
     chosen = slice(every // 2, None, every)
-    points, directions, weights = (np.ascontiguousarray(values[chosen]) for values in samples)
     poses: Array = kernels.pose_search.search_poses(
-        points,
-        directions,
-        weights,
+        Samples(*(np.ascontiguousarray(values[chosen]) for values in samples)),
         local_map.segment_field,
         prior.pose,
         np.array([prior.position_std, prior.heading_std]),
@@ -174,7 +164,7 @@ def _refine(samples: Samples, local_map: LocalMap, prior: MotionPrior, starts: A
     return [
         Fit(
             *kernels.point_to_segment.refine_pose(
-                *samples,
+                samples,
                 local_map.segment_field,
                 start,
                 mean,

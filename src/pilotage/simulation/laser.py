@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan
 from pilotage.simulation.scene import NOBODY, Movers
@@ -51,8 +52,6 @@ def sense(
     movers: Movers = NOBODY,
 ) -> LaserScan:
     """Take one scan from where the robot stands."""
-    from pilotage.kernels.raycast import cast, cast_on_discs, cast_on_panes
-
     angle_min = -settings.field_of_view / 2.0
     increment = settings.field_of_view / (settings.beams - 1)
     world_from_laser = world_from_base @ settings.base_from_laser
@@ -62,9 +61,9 @@ def sense(
     if len(world.glass) > 0:
         dusty = rng.random(settings.beams) < settings.glass_return
         steepest = np.where(dusty, math.pi / 2.0, settings.glass_angle)
-        ranges = np.minimum(ranges, cast_on_panes(origins, directions, world.glass, steepest))
-    ranges = np.minimum(ranges, cast(origins, directions, movers.closed_doors))
-    ranges = np.minimum(ranges, cast_on_discs(origins, directions, movers.people))
+        ranges = np.minimum(ranges, kernels.raycast.cast_on_panes(origins, directions, world.glass, steepest))
+    ranges = np.minimum(ranges, kernels.raycast.cast(origins, directions, movers.closed_doors))
+    ranges = np.minimum(ranges, kernels.raycast.cast_on_discs(origins, directions, movers.people))
     ranges = np.maximum(ranges + rng.normal(0.0, settings.noise, settings.beams), 0.0)
     ranges[rng.random(settings.beams) < settings.dropout] = np.inf
     return LaserScan(

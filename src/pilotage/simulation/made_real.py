@@ -13,6 +13,7 @@ import shapely
 
 from pilotage.geometry import Array, Polyline, Pose2
 from pilotage.maps import Atlas, Cell, CellGraph
+from pilotage.maps.routing.places import connected_cells
 from pilotage.simulation.people import Person
 from pilotage.simulation.proportions import Proportions
 from pilotage.simulation.scene import Door
@@ -218,8 +219,6 @@ def candidates(
     graph: CellGraph, rooms: Sequence[shapely.Polygon], goal: Point | None, rng: np.random.Generator
 ) -> Array:
     """Draw places to begin at: in rooms that are joined to that of the goal, but not in it if it can be."""
-    from pilotage.maps.routing.places import connected_cells
-
     parts = connected_cells(graph)
     goal_id = graph.cell_at(goal) if goal else ""
     part = next((part for part in parts if goal_id in part), parts[0])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.geometry import Array, Polyline
 
 COURTESY = 0.6
@@ -32,7 +33,7 @@ class Person:
         """Reject a person that cannot walk."""
         for name in ("speed", "radius"):
             if not 0.0 < getattr(self, name) < math.inf:
-                raise ValueError(f"a person's {name} must be > 0, got {getattr(self, name)}")
+                raise ValueError(f"a person's {name} must be > 0 and finite, got {getattr(self, name)}")
         if not self.path.length > 0.0:
             raise ValueError("a person's path must have a length, got one of 0 m")
 
@@ -85,13 +86,14 @@ class Walker:
 
     def _is_barred(self, there: Array, robot: Array, closed_doors: Array) -> bool:
         """Tell whether the robot is near ahead, or a closed door in between."""
-        from pilotage.kernels.contact import share_before_segment
-
         step = there - self.position
         if np.dot(robot - self.position, step) > 0.0 and self.gap(there, robot) < COURTESY:
             return True
         (x, y), (step_x, step_y), radius = self.position, step, self.person.radius
-        return any(share_before_segment(x, y, step_x, step_y, radius, door) < 1.0 for door in closed_doors)
+        return any(
+            kernels.contact.share_before_segment(x, y, step_x, step_y, radius, door) < 1.0
+            for door in closed_doors
+        )
 
     def _wait(self, time_step: float) -> None:
         """Stand still, and turn round after a while."""

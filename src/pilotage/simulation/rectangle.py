@@ -10,6 +10,10 @@ HALVINGS = 8
 """Times that a motion is halved to find where contact begins: from 8 cm to a third of a millimetre."""
 
 
+MARGIN = 0.05
+"""Distance [m] beyond the reach of a motion up to which segments are tried: rounding leaves none out."""
+
+
 def touches(world_from_base: Pose2, size: tuple[float, float], segments: Array, discs: Array) -> bool:
     """Tell whether a rectangle of this length and width [m] meets segments (m, 4) or discs (k, 3)."""
     half = np.array(size) / 2.0
@@ -38,7 +42,7 @@ def share_before_contact(
     world_from_base: Pose2, move: Pose2, size: tuple[float, float], segments: Array, discs: Array
 ) -> float:
     """Return what share of a small motion in the robot's frame it can make before it touches anything."""
-    reach = math.hypot(move.x, move.y) + math.hypot(*size) / 2.0 + 0.05
+    reach = math.hypot(move.x, move.y) + math.hypot(*size) / 2.0 + MARGIN
     near = segments[segment_distances(segments, world_from_base.position) < reach]
     if not touches(world_from_base @ move, size, near, discs):
         return 1.0

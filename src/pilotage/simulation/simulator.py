@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.errors import PilotageError
 from pilotage.geometry import Array, Pose2, Twist
 from pilotage.perception import Odometry, Reading
@@ -147,8 +148,6 @@ class Simulator:
 
     def _share_before_contact(self, move: Pose2) -> float:
         """Return what share of a motion in the robot's frame it can make before it touches anything."""
-        from pilotage.kernels.contact import share_before_all
-
         size = self.settings.body.rectangle
         if size is not None:
             return share_before_contact(self.world_from_base, move, size, *self._things)
@@ -156,7 +155,7 @@ class Simulator:
             return 1.0
         here = self.world_from_base
         step = (here @ move).position - here.position
-        share = share_before_all(
+        share = kernels.contact.share_before_all(
             here.x,
             here.y,
             step[0],
@@ -175,8 +174,6 @@ class Simulator:
 
     def _room(self) -> float:
         """Measure from the robot's body to the nearest thing, up to a little over APART [m]."""
-        from pilotage.kernels.contact import distance_to_segment
-
         size = self.settings.body.rectangle
         if size is not None:
             grown = size[0] + 2.0 * APART, size[1] + 2.0 * APART
@@ -184,7 +181,10 @@ class Simulator:
         reach = self.settings.body.radius + 2.0 * APART
         x, y = where = self.world_from_base.position
         walls = float(self.world.clearance([where], reach)[0])
-        doors = min((float(distance_to_segment(x, y, door)) for door in self.closed_doors), default=reach)
+        doors = min(
+            (float(kernels.contact.distance_to_segment(x, y, door)) for door in self.closed_doors),
+            default=reach,
+        )
         people = np.hypot(*(self.people - where).T) - self._traffic.movers.people[:, 2]
         return min(walls, doors, float(people.min(initial=reach))) - self.settings.body.radius
 

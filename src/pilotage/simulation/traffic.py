@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.geometry import Array
 from pilotage.simulation.people import Walker
 from pilotage.simulation.scene import Movers
@@ -44,15 +45,14 @@ class Traffic:
 
     def _close_doors(self, stamp: float, robot: Array) -> None:
         """Follow the schedules, but close no door on or right before a robot or a person."""
-        from pilotage.kernels.contact import distance_to_segment
-
         bodies = [(robot, self._robot_radius)]
         bodies += [(walker.position, walker.person.radius) for walker in self._walkers]
         for k, door in enumerate(self._doors):
             self._is_closed[k] = door.should_be_closed(stamp) and (
                 self._is_closed[k]
                 or all(
-                    distance_to_segment(x, y, door.segment) > radius + DOOR_ROOM for (x, y), radius in bodies
+                    kernels.contact.distance_to_segment(x, y, door.segment) > radius + DOOR_ROOM
+                    for (x, y), radius in bodies
                 )
             )
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array, frozen_array
 
 if TYPE_CHECKING:
@@ -57,43 +58,35 @@ class Ways:
     @classmethod
     def among(cls, grid: "SegmentGrid", radius: float) -> "Ways":
         """Lay points over all segments of a grid."""
-        from pilotage.kernels.contact import clearances
-        from pilotage.kernels.shortest_way import LONGEST_STEP
-
         extent = np.array([grid.columns, grid.rows]) * grid.cell
         step = max(STEP, math.sqrt(float(extent.prod()) / MOST_POINTS))
         columns, rows = np.ceil(extent / step).astype(int)
         corner = np.array([grid.left, grid.bottom])
         points = corner + step * np.argwhere(np.ones((columns, rows), dtype=bool))
         # whatever is nearer than the radius to a step is nearer than this to one of its ends
-        reach = math.hypot(radius, LONGEST_STEP * step / 2.0)
-        is_free = clearances(points, grid, reach) >= reach
+        reach = math.hypot(radius, kernels.shortest_way.LONGEST_STEP * step / 2.0)
+        is_free = kernels.contact.clearances(points, grid, reach) >= reach
         return cls(grid, radius, corner, step, is_free.reshape(columns, rows))
 
     def shortest(self, start: Array, goal: Array) -> Way:
         """Find the shortest way from one place (2,) [m], where the disc can be, to another."""
-        from pilotage.kernels.contact import share_before_grid
-        from pilotage.kernels.shortest_way import find_way, pull_taut
-
         x, y = goal - start
-        if share_before_grid(start[0], start[1], x, y, self.radius, self.grid) == 1.0:
+        if kernels.contact.share_before_grid(start[0], start[1], x, y, self.radius, self.grid) == 1.0:
             return Way(np.array([start, goal]))
-        over_grid = find_way(self.is_free, self._costs_to(start), self._costs_to(goal))[::-1]
-        if len(over_grid) == 0:
+        backwards = kernels.shortest_way.find_way(self.is_free, self._costs_to(start), self._costs_to(goal))
+        if len(backwards) == 0:
             return NO_WAY
-        inner = np.column_stack(np.divmod(over_grid, self.is_free.shape[1])) * self.step + self.corner
+        inner = np.column_stack(np.divmod(backwards[::-1], self.is_free.shape[1])) * self.step + self.corner
         points = np.vstack([start, inner, goal])
-        return Way(points[pull_taut(points, self.radius, self.grid)])
+        return Way(points[kernels.shortest_way.pull_taut(points, self.radius, self.grid)])
 
     def _costs_to(self, place: Array) -> Array:
         """Return how far it is straight to the points near a place [steps], inf for all others."""
-        from pilotage.kernels.contact import share_before_grid
-
         costs = np.full(self.is_free.shape, np.inf)
         middle = np.rint((place - self.corner) / self.step).astype(int)
         low = np.maximum(middle - NEAR, 0)
         for column, row in np.argwhere(self.is_free[tuple(map(slice, low, middle + NEAR + 1))]) + low:
             x, y = self.corner + self.step * np.array([column, row]) - place
-            if share_before_grid(place[0], place[1], x, y, self.radius, self.grid) == 1.0:
+            if kernels.contact.share_before_grid(place[0], place[1], x, y, self.radius, self.grid) == 1.0:
                 costs[column, row] = math.hypot(x, y) / self.step
         return costs

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array, Pose2, frozen_array, frozen_points
 from pilotage.maps import SchematicMap
 from pilotage.simulation.people import Person
@@ -71,26 +72,20 @@ class World:
     @cached_property
     def opaque_grid(self) -> "SegmentGrid":
         """What stops beams, ready for look-up."""
-        from pilotage.kernels.segment_grid import build_grid
-
-        return build_grid(np.array(self.segments))
+        return kernels.segment_grid.build_grid(np.array(self.segments))
 
     @cached_property
     def solid_grid(self) -> "SegmentGrid":
         """What stops a robot, ready for look-up."""
-        from pilotage.kernels.segment_grid import build_grid
-
-        return build_grid(np.array(self.solid))
+        return kernels.segment_grid.build_grid(np.array(self.solid))
 
     def ranges(self, origins: Array, directions: Array) -> Array:
         """Measure from origins (n, 2) [m] along directions (n,) [rad] to a wall, (n,) [m]; inf if none.
 
         Glass, doors and people are not met.
         """
-        from pilotage.kernels.raycast import cast_through
-
         return np.asarray(
-            cast_through(
+            kernels.raycast.cast_through(
                 np.ascontiguousarray(origins, dtype=np.float64),
                 np.ascontiguousarray(directions, dtype=np.float64),
                 self.opaque_grid,
@@ -102,20 +97,17 @@ class World:
 
         The search ends `within` so many metres, and that is the answer if there is nothing.
         """
-        from pilotage.kernels.contact import clearances
-
-        return np.asarray(
-            clearances(frozen_points(points, name="points", at_least=0), self.solid_grid, within)
-        )
+        where = frozen_points(points, name="points", at_least=0)
+        return np.asarray(kernels.contact.clearances(where, self.solid_grid, within))
 
     def is_free(self, points: ArrayLike, radius: float) -> NDArray[np.bool_]:
         """Tell at which points (n, 2) [m] a disc of this radius [m] touches nothing that always stands."""
-        from pilotage.kernels.enclosure import enclosed
-
         where = frozen_points(points, name="points", at_least=0)
         is_free = self.clearance(where, radius) >= radius
         if self.contours:
-            is_free[is_free] = enclosed(where[is_free], self.opaque_grid, self._enclosed_corners)
+            is_free[is_free] = kernels.enclosure.enclosed(
+                where[is_free], self.opaque_grid, self._enclosed_corners
+            )
         return is_free
 
     def shortest_way(self, start: ArrayLike, goal: ArrayLike, radius: float) -> Way:
@@ -133,9 +125,7 @@ class World:
     @cached_property
     def _enclosed_corners(self) -> NDArray[np.bool_]:
         """Which corners of the grid contours enclose."""
-        from pilotage.kernels.enclosure import enclosed_corners
-
-        return np.asarray(enclosed_corners(self.opaque_grid))
+        return np.asarray(kernels.enclosure.enclosed_corners(self.opaque_grid))
 
     @cached_property
     def _ways(self) -> dict[float, Ways]:

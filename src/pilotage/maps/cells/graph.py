@@ -110,6 +110,11 @@ class CellGraph:
         return {cell.cell_id: index for index, cell in enumerate(self.cells)}
 
     @cached_property
+    def gateway_ids(self) -> frozenset[str]:
+        """The ids of all gateways."""
+        return frozenset(gateway.gateway_id for gateway in self.gateways)
+
+    @cached_property
     def tree(self) -> shapely.STRtree:
         """The polygons of the cells, indexed."""
         return shapely.STRtree([cell.polygon for cell in self.cells])

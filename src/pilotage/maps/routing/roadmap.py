@@ -119,12 +119,12 @@ class Roadmap:
 
         Raises RouteError if there is none, and KeyError if a gateway is none of the graph.
         """
+        check_allowed(self.zones, goal)
         net = self._open_net(closed)
         ends = [np.array(end, dtype=np.float64) for end in (start, goal)]
         points = [*self._points, *ends]
         cell_ids = [self.graph.cell_at(start), self.graph.cell_at(goal)]
         first, last = (int(node) for node in net.add_nodes_from([None, None]))
-        check_allowed(self.zones, goal)
         begin = self._paths_from(first, ends[0], cell_ids[0], points, self._nodes[cell_ids[0]], leaves=True)
         net.add_edges_from(begin)
         beside = [*self._nodes[cell_ids[1]], *([first] if cell_ids[0] == cell_ids[1] else [])]
