@@ -22,12 +22,12 @@ def stayed(seconds, *, away=1.0, here=lambda _: HERE, gateways=("g1",)):
 
 
 def test_a_gateway_that_is_not_got_through_for_long_is_closed():
-    assert () == stayed(8.0).gateway_ids
-    assert ("g1",) == stayed(9.0).gateway_ids
+    assert () == stayed(10.5).gateway_ids
+    assert ("g1",) == stayed(11.0).gateway_ids
 
 
 def test_going_to_and_fro_between_two_gateways_closes_both():
-    assert {"g1", "g2"} == set(stayed(18.0, gateways=("g1", "g2")).gateway_ids)
+    assert {"g1", "g2"} == set(stayed(22.0, gateways=("g1", "g2")).gateway_ids)
 
 
 def test_a_gateway_far_off_is_not_closed_nor_one_that_the_robot_comes_by():

@@ -16,6 +16,10 @@ TO_BLAME = 3.0
 """Largest distance [m] of the gateway that blocks a robot which is stalled."""
 
 
+GETTING_THROUGH = 4.0 / 3.0
+"""How long a robot may stay near a gateway, in times its patience: it slows down for a narrow one."""
+
+
 @dataclass(frozen=True, eq=False)
 class BlockedGateways:
     """Which gateways are blocked, and how long the robot has stayed near each of the others."""
@@ -53,8 +57,8 @@ class BlockedGateways:
     ) -> "BlockedGateways":
         """Block a gateway that the robot, `here` (2,) in odom [m], stays close to and does not get through.
 
-        It is blocked, at the time `stamp` [s], once the robot stayed near it for longer than `patience` [s];
-        `lasted` [s] is the time since the last call. Going to and fro between gateways counts for each.
+        It is blocked, at the time `stamp` [s], once the robot stayed near it for too long for its `patience`
+        [s]; `lasted` [s] is the time since the last call. Going to and fro between gateways counts for each.
         """
         time_near = self.time_near
         if time_near and math.dist(here, self.near_from) > 2.0 * CLOSE_BY:
@@ -64,6 +68,6 @@ class BlockedGateways:
         began = self.near_from if time_near else here
         time = time_near.get(leg.gateway_id, 0.0) + lasted
         others = {one: value for one, value in time_near.items() if one != leg.gateway_id}
-        if time > patience:
+        if time > GETTING_THROUGH * patience:
             return BlockedGateways({**self.since, leg.gateway_id: stamp}, others, began)
         return BlockedGateways(self.since, {**others, leg.gateway_id: time}, began)
