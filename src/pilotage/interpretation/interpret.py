@@ -8,40 +8,25 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.bars import find_bars, opened_bars, without_bars
-from pilotage.interpretation.dashed import find_dashed, opened_dashed
-from pilotage.interpretation.dimensions import find_dimensions
-from pilotage.interpretation.doors import find_doors, without_doors
-from pilotage.interpretation.floors import find_floors, is_floor
-from pilotage.interpretation.glyphs import find_glyphs
-from pilotage.interpretation.halves import find_halves, opened_halves, without_halves
+from pilotage.interpretation.bars import opened_bars
+from pilotage.interpretation.dashed import opened_dashed
+from pilotage.interpretation.floors import is_floor
+from pilotage.interpretation.halves import opened_halves
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
-from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.names import told_role
 from pilotage.interpretation.origin import moved_sheet, moved_sketch, origin_of
-from pilotage.interpretation.paint import Seen, look_at, polylines_of
-from pilotage.interpretation.paper import area_of, bounds_of, find_paper
+from pilotage.interpretation.paint import Seen, polylines_of
+from pilotage.interpretation.paper import area_of, bounds_of
+from pilotage.interpretation.parts import Parts, take_apart
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
-from pilotage.interpretation.signs import find_signs
-from pilotage.interpretation.stairs import find_stairs
-from pilotage.interpretation.walls import Walls, find_walls, rings_of
+from pilotage.interpretation.view import View, view_of
+from pilotage.interpretation.walls import Walls, rings_of
 from pilotage.interpretation.words import find_names, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
 
 GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
-
-
-NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
-"""What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
-
-NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
-"""Arcs of these are of cupboards and trees."""
-
-CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
-"""What a person makes one of these stays a part of the building."""
-
-NOT_NAMED = (Role.WALL, "")
 
 
 class NoWallsError(ValueError):
@@ -74,131 +59,87 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
 
 def interpret_near(sheet: Sheet, layers: Mapping[str, Role]) -> Interpretation:
     """Tell walls from all else on a sheet that is near the origin, as `interpret` does."""
-    told = [told_role(mark.names, layers) for mark in sheet.marks]
-    closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
-    open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]
-    paper = find_paper(sheet, open_to_guess)
-    drawn = [number for number in open_to_guess if number not in paper.sheets]
-    diagonal = diagonal_of(sheet, drawn)
-    unsaid = [number for number in drawn if number not in closing]
-    glyphs = find_glyphs([sheet.marks[number] for number in unsaid], diagonal)
-    letters = {number for place, number in enumerate(unsaid) if place in glyphs}
-    visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
-    called = names_inside(sheet, drawn)
-    guessed = {
-        mark.number: role
-        for mark in visible
-        if (role := closing.get(mark.number) or guessed_role(called[mark.number]))
-    }
-    named = {number: Meaning(*guess) for number, guess in guessed.items() if guess[0] is not Role.WALL}
-    built = [mark for mark in visible if guessed.get(mark.number, NOT_NAMED)[0] not in NO_DOORS]
-    measuring = find_dimensions(sheet, built, guessed, diagonal)
-    signs, written = find_signs(sheet, [mark for mark in built if mark.number not in guessed], diagonal)
-    built = [mark for mark in built if mark.number not in measuring | signs]
-    doors = find_doors(sheet, built, diagonal)
-    called_doors = {number for number, (role, _) in guessed.items() if role is Role.DOOR}
-    bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
-    halves = find_halves(sheet, drawn, built, paper.ground, diagonal)
-    left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
-    seen = [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] not in NO_WALLS]
-    painted = [
-        number
-        for number in unsaid
-        if number not in letters and (guessed_role(called[number]) or NOT_NAMED)[0] not in NO_WALLS
-    ]  # not only what is seen: a floor may be too faint for that
-    dashed = find_dashed(sheet, seen, guessed, diagonal)
-    seen = [mark for mark in seen if mark.number not in dashed]
-    walls = find_walls(
-        seen,
-        sheet,
-        {number: role for number, (role, _) in guessed.items()},
-        doors,
-        floors=find_floors([sheet.marks[number] for number in painted], paper.ground),
-        ground=paper.ground,
-        diagonal=diagonal,
-    )
-    stairs = find_stairs(
-        [mark for mark in left if guessed.get(mark.number, NOT_NAMED)[0] is Role.STAIRS], sheet, diagonal
-    )
-    sure = [mark for mark in seen if mark.number in closing]
-    strokes = (
-        *wall_strokes(sheet, seen, walls, paper.ground, (GRAIN * diagonal) ** 2),
-        *(line for mark in sure for line in beside_walls(mark, walls)),
-        *(line for ring in rings_of(stairs) for line in polylines_of(ring)),
-    )
-    if not strokes:
-        raise NoWallsError("a drawing needs at least one visible stroke, found none")
+    view = view_of(sheet, layers)
+    parts = take_apart(view)
     text_roles = [
         told_role(text.names, layers)
-        or ((Role.IGNORE, "the north of a compass") if number in written else role_of_words(text.text))
+        or ((Role.IGNORE, "the north of a compass") if number in parts.written else role_of_words(text.text))
         for number, text in enumerate(sheet.texts)
     ]
+    return Interpretation(
+        sketch_of(view, parts, text_roles),
+        sheet,
+        find_meanings(sheet, evidence_of(view, parts)),
+        tuple(Meaning(*role) for role in text_roles),
+    )
+
+
+def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) -> SchematicMap:
+    """Build the drawing of walls, openings and names; raises NoWallsError if it would have no stroke."""
+    sheet = view.sheet
+    strokes = tuple(building_strokes(view, parts))
+    if not strokes:
+        raise NoWallsError("a drawing needs at least one visible stroke, found none")
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
     names = find_names([(number, sheet.texts[number]) for number in spoken])
-    labels = tuple(Label(name.words, name.position) for name in names)
-    start, goal = (marked(role, sheet, told, text_roles) for role in (Role.START, Role.GOAL))
-    solid = walls.solid if walls.solid.is_empty else shapely.union(walls.solid, stairs)
-    sketch = SchematicMap(
+    start, goal = (marked(role, sheet, view.told, text_roles) for role in (Role.START, Role.GOAL))
+    solid = parts.walls.solid
+    solid = solid if solid.is_empty else shapely.union(solid, parts.stairs)
+    return SchematicMap(
         strokes,
         start=start,
         goal=goal,
-        labels=labels,
+        labels=tuple(Label(name.words, name.position) for name in names),
         unread=sheet.unread,
         solids=tuple(polyline for ring in rings_of(solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,
         metres_per_unit=sheet.metres_per_unit,
-        zones=find_zones(sheet, told),
+        zones=find_zones(sheet, view.told),
         photo_from_sketch=sheet.photo_from_sheet,
         doors=(
-            *(Polyline(np.array([door.hinge, door.latch])) for door in doors),
-            *opened_bars(bars),
-            *opened_halves(halves),
-            *opened_dashed(sheet, sorted(dashed)),
+            *(Polyline(np.array([door.hinge, door.latch])) for door in parts.doors),
+            *opened_bars(parts.bars),
+            *opened_halves(parts.halves),
+            *opened_dashed(sheet, sorted(parts.dashed)),
         ),
         openings=sheet.openings,
     )
-    meanings = find_meanings(
-        sheet,
-        Evidence(
-            {number: Meaning(*role) for number, role in enumerate(told) if role is not None},
-            set(paper.sheets),
-            letters,
-            {
-                **dict.fromkeys(dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
-                **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in halves},
-                **dict.fromkeys(measuring, Meaning(Role.IGNORE, "a dimension line")),
-                **dict.fromkeys(signs, Meaning(Role.IGNORE, "a disc in a color of its own, or a compass")),
-                **named,
-            },
-            built,
-            left,
-            doors,
-            walls,
-            paper.ground,
-            diagonal,
-        ),
+
+
+def evidence_of(view: View, parts: Parts) -> Evidence:
+    """Gather what tells the meaning of each mark."""
+    named = {number: Meaning(*role) for number, role in view.guessed.items() if role[0] is not Role.WALL}
+    return Evidence(
+        {number: Meaning(*role) for number, role in enumerate(view.told) if role is not None},
+        set(view.paper.sheets),
+        view.letters,
+        {
+            **dict.fromkeys(parts.dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
+            **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in parts.halves},
+            **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),
+            **dict.fromkeys(parts.signs, Meaning(Role.IGNORE, "a disc in a color of its own, or a compass")),
+            **named,
+        },
+        parts.built,
+        parts.left,
+        parts.doors,
+        parts.walls,
+        view.paper.ground,
+        view.diagonal,
     )
-    return Interpretation(sketch, sheet, meanings, tuple(Meaning(*role) for role in text_roles))
 
 
-def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
-    """List the names of marks but for those that all of them bear: such a name is the drawing's own.
-
-    Programs name what holds a whole drawing "Frame 1" or "axes_1".
-    """
-    names = {number: sheet.marks[number].names for number in drawn}
-    common = set.intersection(*map(set, names.values())) if names else set()
-    common = {name for name in common if (guessed_role([name]) or NOT_NAMED)[0] is not Role.WALL}
-    return {number: [name for name in own if name not in common] for number, own in names.items()}
-
-
-def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:
-    """Measure the diagonal of some marks."""
-    if not drawn:
-        return 0.0
-    boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
-    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
+def building_strokes(view: View, parts: Parts) -> Iterator[Polyline]:
+    """List the strokes of walls as found, of what a person calls walls, and the outlines of stairs."""
+    yield from wall_strokes(
+        view.sheet, parts.lines, parts.walls, view.paper.ground, (GRAIN * view.diagonal) ** 2
+    )
+    for mark in parts.lines:
+        if mark.number in view.closing:
+            yield from beside_walls(mark, parts.walls)
+    for ring in rings_of(parts.stairs):
+        yield from polylines_of(ring)
 
 
 def wall_strokes(

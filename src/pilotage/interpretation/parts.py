@@ -1,0 +1,83 @@
+"""What the visible marks of a sheet are: one kind of mark after the other is found and taken out."""
+
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+import shapely
+
+from pilotage.interpretation.bars import Bar, find_bars, without_bars
+from pilotage.interpretation.dashed import find_dashed
+from pilotage.interpretation.dimensions import find_dimensions
+from pilotage.interpretation.doors import Door, find_doors, without_doors
+from pilotage.interpretation.floors import find_floors
+from pilotage.interpretation.halves import Half, find_halves, without_halves
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.sheet import Mark, Role
+from pilotage.interpretation.signs import find_signs
+from pilotage.interpretation.stairs import find_stairs
+from pilotage.interpretation.view import View
+from pilotage.interpretation.walls import Walls, find_walls
+
+NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
+
+NO_DOORS = (Role.FURNITURE, Role.LABEL, Role.IGNORE)
+"""Arcs of these are of cupboards and trees."""
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """What was found among the visible marks; numbers are those of the sheet."""
+
+    measuring: AbstractSet[int]  # dimension lines
+    signs: AbstractSet[int]  # discs and compasses
+    written: AbstractSet[int]  # texts of these
+    built: Sequence[Seen]  # marks that are none of these
+    doors: Sequence[Door]  # leaf and arc
+    bars: Sequence[Bar]  # patches across a wall
+    halves: Sequence[Half]  # gaps in one of two lines
+    dashed: AbstractSet[int]  # dashed lines from wall to wall
+    left: Sequence[Seen]  # `built` without doors, bars and halves
+    lines: Sequence[Seen]  # of these, what may be a wall
+    walls: Walls
+    stairs: shapely.Geometry
+
+
+def take_apart(view: View) -> Parts:
+    """Find doors, signs and stairs among the visible marks, and walls in what is left."""
+    sheet, ground, diagonal = view.sheet, view.paper.ground, view.diagonal
+    built = view.all_but(NO_DOORS, view.visible)
+    measuring = find_dimensions(sheet, built, view.guessed, diagonal)
+    unnamed = [mark for mark in built if mark.number not in view.guessed]
+    signs, written = find_signs(sheet, unnamed, diagonal)
+    built = [mark for mark in built if mark.number not in measuring | signs]
+    doors = find_doors(sheet, built, diagonal)
+    called_doors = {number for number, (role, _) in view.guessed.items() if role is Role.DOOR}
+    bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
+    halves = find_halves(sheet, view.drawn, built, ground, diagonal)
+    left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
+    lines = view.all_but(NO_WALLS, left)
+    dashed = find_dashed(sheet, lines, view.guessed, diagonal)
+    lines = [mark for mark in lines if mark.number not in dashed]
+    walls = find_walls(
+        lines,
+        sheet,
+        {number: role for number, (role, _) in view.guessed.items()},
+        doors,
+        floors=find_floors(may_be_floors(view), ground),
+        ground=ground,
+        diagonal=diagonal,
+    )
+    stairs = find_stairs([mark for mark in left if view.role(mark) is Role.STAIRS], sheet, diagonal)
+    return Parts(measuring, signs, written, built, doors, bars, halves, dashed, left, lines, walls, stairs)
+
+
+def may_be_floors(view: View) -> list[Mark]:
+    """List the marks that a name makes nothing else than a wall, faint ones too: a floor may be one."""
+    return [
+        view.sheet.marks[number]
+        for number in view.drawn
+        if number not in view.closing and number not in view.letters
+        if (role := view.called[number]) is None or role[0] not in NO_WALLS
+    ]

@@ -1,0 +1,78 @@
+"""What can be seen of a sheet, and what names say of its marks, before any is understood by its shape."""
+
+from collections.abc import Container, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+import numpy as np
+
+from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.paint import Seen, look_at
+from pilotage.interpretation.paper import Paper, bounds_of, find_paper
+from pilotage.interpretation.sheet import Role, Sheet
+
+CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
+"""What a person makes one of these stays a part of the building."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """The visible marks of a sheet, and the roles that names give; marks by their number in the sheet."""
+
+    sheet: Sheet
+    told: Sequence[tuple[Role, str] | None]  # role of each mark by a person, or by the words of this program
+    closing: Mapping[int, tuple[Role, str]]  # of these, those that stay a part of the building
+    guessed: Mapping[int, tuple[Role, str]]  # role of visible marks by `closing`, or by what people call them
+    paper: Paper
+    drawn: Sequence[int]  # marks that may be of the building, and are no paper
+    letters: AbstractSet[int]  # letters that were turned into outlines
+    called: Mapping[int, tuple[Role, str] | None]  # role of each drawn mark by what people call it
+    visible: Sequence[Seen]
+    diagonal: float  # [drawing units]
+
+    def role(self, mark: Seen) -> Role:
+        """Return the role that a name gives to a mark; what has none may be a wall."""
+        return self.guessed[mark.number][0] if mark.number in self.guessed else Role.WALL
+
+    def all_but(self, roles: Container[Role], marks: Sequence[Seen]) -> list[Seen]:
+        """Leave out marks to which a name gives one of these roles."""
+        return [mark for mark in marks if self.role(mark) not in roles]
+
+
+def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
+    """Look at a sheet; `layers` tells the roles of layers, classes, ids and blocks."""
+    told = [told_role(mark.names, layers) for mark in sheet.marks]
+    closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
+    open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]
+    paper = find_paper(sheet, open_to_guess)
+    drawn = [number for number in open_to_guess if number not in paper.sheets]
+    diagonal = diagonal_of(sheet, drawn)
+    unsaid = [number for number in drawn if number not in closing]
+    glyphs = find_glyphs([sheet.marks[number] for number in unsaid], diagonal)
+    letters = {number for place, number in enumerate(unsaid) if place in glyphs}
+    visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
+    called = {number: guessed_role(names) for number, names in names_inside(sheet, drawn).items()}
+    guessed = {
+        mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
+    }
+    return View(sheet, told, closing, guessed, paper, drawn, letters, called, visible, diagonal)
+
+
+def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
+    """List the names of marks but for those that all of them bear: such a name is the drawing's own.
+
+    Programs name what holds a whole drawing "Frame 1" or "axes_1".
+    """
+    names = {number: sheet.marks[number].names for number in drawn}
+    common = set.intersection(*map(set, names.values())) if names else set()
+    common = {name for name in common if (role := guessed_role([name])) and role[0] is not Role.WALL}
+    return {number: [name for name in own if name not in common] for number, own in names.items()}
+
+
+def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:
+    """Measure the diagonal of some marks."""
+    if not drawn:
+        return 0.0
+    boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
+    return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))
