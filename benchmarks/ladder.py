@@ -8,7 +8,7 @@ as drawings by people are. Each drawing of each person gets the episodes of `loc
 nothing told. `--hands` adds drawings by other hands. `--true-warp` localizes once more on each drawing with
 the true warp taken out by its control points: what is lost there is lost by what the drawing leaves out, adds
 or moves, and the rest by its proportions. `--statistics` only measures the drawings at severity 1 beside
-`freehand`, a drawing by a person, by the same code; `--figure` writes a picture of one building at six
+those by people and by the other hands, by the same code; `--figure` writes a picture of one building at six
 severities.
 """
 
@@ -50,6 +50,7 @@ KNOWN_OF_PEOPLE = {
     "crossing": "0.01 to 0.04",
     "undrawn": "up to 0.14",
     "rooms_missing": "up to 0.25",
+    "shortening": "",
 }
 """What was measured of drawings by people that are not among the data, for comparison."""
 
@@ -202,21 +203,27 @@ def render(figures: Figures) -> str:
 
 
 def measure_drawings(buildings: Sequence[str], persons: Sequence[int]) -> Figures:
-    """Print how far drawings at severity 1 are from the truth, beside drawings by people."""
-    ladder = mean_of(
-        [
-            asdict(drawing_statistics(deform(plan_of(building), 1.0, person), building, "draftsman"))
-            for building in buildings
-            for person in persons
-        ]
-    )
-    freehand = asdict(
-        drawing_statistics(read_plan(drawing_of("belgioioso", "freehand")), "belgioioso", "freehand")
-    )
-    print(f"{'':16s}{'ladder':>9s}{'freehand':>10s}{'people':>14s}")
-    for name, value in ladder.items():
-        print(f"{name:16s}{value:9.2f}{freehand[name]:10.2f}{KNOWN_OF_PEOPLE[name]:>14s}")
-    return {"ladder": ladder, "freehand": freehand}
+    """Print how far drawings at severity 1 are from the truth, beside drawings by people and other hands."""
+    columns = {
+        "ladder": mean_of(
+            [
+                asdict(drawing_statistics(deform(plan_of(building), 1.0, person), building, "draftsman"))
+                for building in buildings
+                for person in persons
+            ]
+        )
+    }
+    for hand in (*PEOPLE, *HANDS):
+        own = [building for building, _ in drawings(buildings, [hand])]
+        plans = {building: read_plan(drawing_of(building, hand)) for building in own}
+        measured = [asdict(drawing_statistics(plan, building, hand)) for building, plan in plans.items()]
+        if measured:
+            columns[hand] = mean_of(measured)
+    print(f"{'':16s}{''.join(f'{name:>11s}' for name in columns)}{'people':>14s}")
+    for name, known in KNOWN_OF_PEOPLE.items():
+        values = "".join(f"{column[name]:11.2f}" for column in columns.values())
+        print(f"{name:16s}{values}{known:>14s}")
+    return columns
 
 
 def drawing_statistics(plan: Plan, building: str, hand: str) -> Statistics:

@@ -1,13 +1,21 @@
+import math
+
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from pilotage.evaluation.deformation import deform, read_plan, statistics_of
+from pilotage.evaluation.deformation import Plan, deform, read_plan, statistics_of
 from pilotage.evaluation.deformation.doors import find_openings
 from pilotage.evaluation.deformation.elastic import bend, least_areas, linear_of, node_grid
 from pilotage.evaluation.deformation.omissions import change
-from pilotage.evaluation.deformation.statistics import similarity_miss
-from pilotage.evaluation.rooms import read_world_rooms
+from pilotage.evaluation.deformation.statistics import elongations, similarity_miss
+from pilotage.evaluation.rooms import Rooms, read_world_rooms
+from pilotage.evaluation.warp import Warp
+from pilotage.geometry import Affine2, Polyline, Pose2
+from pilotage.maps import RangeTableSettings, SchematicMap
+from pilotage.maps.range_table import build_range_table
 from pilotage.worlds import OFFICE
 
 PLAN = read_plan(OFFICE.careful)
@@ -105,4 +113,41 @@ def test_without_the_warp_a_bent_drawing_has_true_proportions():
     for name, room in zip(straight.rooms.names, straight.rooms.polygons, strict=True):
         overlap = room.buffer(0.0).intersection(true[name]).area / true[name].area
         assert overlap > 0.8, name
-    assert statistics_of(straight, PLAN.warp.in_world, rooms).stretch_median < 1.01
+    statistics = statistics_of(straight, PLAN.warp.in_world, rooms)
+    assert statistics.stretch_median < 1.01
+    assert statistics.shortening == pytest.approx(0.0, abs=0.01)
+
+
+@given(st.floats(-0.35, 0.35), st.floats(-0.35, 0.35))
+@settings(max_examples=10)
+def test_the_view_in_a_stretched_round_room_is_as_long_as_its_stretch(p, q):
+    angles = np.linspace(0.0, math.tau, 60, endpoint=False)
+    outline = np.stack([np.cos(angles), np.sin(angles)], axis=1) @ Affine2.from_state(0, 0, 0, 0, p, q).linear
+    room = SchematicMap((Polyline(outline, closed=True),))
+    table = build_range_table(room, RangeTableSettings(cells=61, directions=90))
+
+    np.testing.assert_allclose(elongations(table, np.zeros((1, 2)))[:, 0], (p, q), atol=0.05)
+
+
+@pytest.mark.parametrize(("degrees", "p", "q"), [(0, 1, 0), (45, 0, 1), (90, -1, 0), (135, 0, -1)])
+def test_the_view_in_a_hall_is_as_long_as_half_the_logarithm_of_its_sides(degrees, p, q):
+    hall = Polyline.through([(0, 0), (12, 0), (12, 3), (0, 3), (0, 0)])
+    turn = Pose2(0.0, 0.0, math.radians(degrees))
+    table = build_range_table(SchematicMap((hall.moved(turn),)), RangeTableSettings(cells=60))
+
+    seen = elongations(table, turn @ np.array([(6.0, 1.5)]))[:, 0]
+
+    np.testing.assert_allclose(seen, 0.5 * math.log(12 / 3) * np.array([p, q]), atol=0.05)
+
+
+def test_a_hall_drawn_half_as_long_is_shortened():
+    grid = np.stack(np.meshgrid([0.0, 4.0, 8.0, 12.0], [0.0, 3.0]), axis=-1).reshape(-1, 2)
+    hall = shapely.box(0.0, 0.0, 12.0, 3.0)
+    true = Plan(shapely.MultiLineString([hall.exterior]), Rooms(("hall",), (hall,)), Warp(grid, grid))
+    way = np.array([(1.5, 1.5), (6.0, 1.5), (10.5, 1.5)])
+
+    halved = true.moved(np.diag([0.5, 1.0]))
+
+    assert statistics_of(true, way, true.rooms).shortening == pytest.approx(0.0, abs=1e-6)
+    # The map stretches by log(1/2) / 2, and a view of 2 : 1 is elongated by log(2) / 2.
+    assert statistics_of(halved, way, true.rooms).shortening == pytest.approx(1.0, abs=0.2)
