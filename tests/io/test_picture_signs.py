@@ -52,6 +52,15 @@ def test_a_wall_that_a_sign_covers_is_drawn(walls, sign):
     assert (found & ~whole).sum() < 0.15 * hidden.sum()
 
 
+@pytest.mark.parametrize("width", [1, 2, 3])
+def test_a_thin_line_that_a_sign_covers_is_drawn_as_thick_as_it_is(width):
+    wall = [(200, 450), (1000, 450)]
+    whole = black(drawn(wall, sign=None, width=width))
+    found = black(uncovered(drawn(wall, width=width)))
+
+    np.testing.assert_array_equal(found[:, 600:620].sum(axis=0), whole[:, 600:620].sum(axis=0))
+
+
 @pytest.mark.parametrize(
     "walls",
     [
