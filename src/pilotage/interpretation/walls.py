@@ -65,6 +65,9 @@ EDGE = 0.0005
 SLIVER = 0.21
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
+FACED = 0.5
+"""Two faces are of a wall if walls enclose this share of what all lines do: else they are of a corridor."""
+
 
 @dataclass(frozen=True, eq=False)
 class Walls:
@@ -217,7 +220,7 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         return None
     filled = filled_between(drawn.lines, drawn.solid, thickness)
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
-    if not are_walls(walls, drawn.lines, gap):
+    if not are_walls(walls, drawn.lines, gap, FACED):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
