@@ -65,6 +65,13 @@ def test_what_lies_between_rows_of_rooms_is_a_corridor_and_no_wall():
     assert len(decompose(sketch, DecompositionSettings()).cells) > len(rooms)
 
 
+def test_a_wall_whose_faces_nearly_meet_parts_rooms():
+    outer = (box(-2, -2, 102, 82, pen=Pen(BLACK, 1.0)), box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)))
+    wedge = [stroke((50, 0), (50, 80)), stroke((50.01, 0), (51.5, 80))]
+
+    assert not are_joined((*outer, *wedge))
+
+
 def test_a_lawn_is_no_wall_though_a_house_and_paths_leave_little_of_it():
     lawn = box(-15, -15, 115, 95, fill=(0.2, 0.5, 0.2))
     paths = [box(0, y, 100, y + 1, fill=(0.9, 0.9, 0.8)) for y in (-14, -12, -10, 90, 92, 94)]
