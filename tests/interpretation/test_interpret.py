@@ -65,6 +65,14 @@ def test_what_lies_between_rows_of_rooms_is_a_corridor_and_no_wall():
     assert len(decompose(sketch, DecompositionSettings()).cells) > len(rooms)
 
 
+def test_walls_that_are_named_need_no_doors():
+    names = ("walls",)
+    outer = [box(k, k, 100 - k, 80 - k, pen=Pen(BLACK, 1.0), names=names) for k in (0, 2)]
+    inner = [box(49, y, 51, top, pen=Pen(BLACK, 1.0), names=names) for y, top in ((2, 30), (42, 78))]
+
+    assert are_joined((*outer, *inner, stroke((70, 20), (80, 20))))
+
+
 def test_a_wall_whose_faces_nearly_meet_parts_rooms():
     outer = (box(-2, -2, 102, 82, pen=Pen(BLACK, 1.0)), box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)))
     wedge = [stroke((50, 0), (50, 80)), stroke((50.01, 0), (51.5, 80))]

@@ -125,9 +125,11 @@ class Drawn:
 
     def share_of_doors(self, walls: shapely.Geometry) -> float:
         """Tell how many of the doors have a wall at their hinge, as a share; none if there are no doors."""
+        if not self.doors:
+            return 0.0
         hinges = shapely.points([door.hinge for door in self.doors])
         reach = np.array([AT_DOOR * door.width for door in self.doors])
-        return float((shapely.distance(hinges, walls) <= reach).mean()) if self.doors else 0.0
+        return float((shapely.distance(hinges, walls) <= reach).mean())
 
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
