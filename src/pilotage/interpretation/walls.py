@@ -15,6 +15,7 @@ from pilotage.interpretation.partitions import TOUCHING, find_partitions
 from pilotage.interpretation.pens import by_style
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
+    ENCLOSING,
     are_walls,
     dark_areas,
     enclosed,
@@ -66,7 +67,8 @@ SLIVER = 0.21
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
 
 FACED = 0.5
-"""Two faces are of a wall if walls enclose this share of what all lines do: else they are of a corridor."""
+"""Where no door is drawn, two faces are of walls if these enclose this share of what all lines do, not of a
+corridor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,7 +224,7 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         return None
     filled = filled_between(drawn.lines, drawn.solid, thickness)
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
-    if not are_walls(walls, drawn.lines, gap, FACED):
+    if not are_walls(walls, drawn.lines, gap, FACED if drawn.door_width is None else ENCLOSING):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
