@@ -11,6 +11,8 @@ WALLS = tuple(stroke((x, 0), (x, 80)) for x in (25, 50, 75))
 BARS = {
     "heavy": [stroke((x, 30), (x, 42), width=3.0) for x in (25, 50, 75)],
     "squares": [box(x - 1, 30, x + 1, 32, fill=BLACK) for x in (25, 50, 75)],
+    "across": [stroke((x - 3, 30), (x + 3, 30), color=RED) for x in (25, 50, 75)],
+    "upright": [stroke((x, 30), (x + 8, 30), color=RED) for x in (25, 50, 75)],
     "outlined": [box(x - 1, 30, x + 1, 42, pen=Pen(RED, 0.1)) for x in (25, 50, 75)],
 }
 
@@ -47,6 +49,13 @@ def test_what_also_stands_in_rooms_is_furniture():
     shelves = [stroke((x, y), (x, y + 12), width=3.0) for x in (10, 37, 60, 90) for y in (20, 50)]
 
     assert not number_of_doors((OUTSIDE, *WALLS, *BARS["heavy"], *shelves))
+
+
+def test_lines_from_wall_to_wall_are_no_doors():
+    flight = stroke((58, 0), (58, 80))
+    treads = [stroke((50, y), (58, y), color=RED) for y in (30, 34, 38)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS, flight, *treads))
 
 
 def test_where_walls_have_gaps_no_bar_is_a_door():

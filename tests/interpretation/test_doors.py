@@ -35,6 +35,13 @@ def test_a_leaf_may_stand_ajar(opened):
     assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, WALL, leaf, arced))
 
 
+def test_an_arc_that_bends_the_wrong_way_is_a_door():
+    arced = arc((62, 42), 12, 180, 270)
+
+    assert are_joined((OUTSIDE, WALL, arced))
+    assert [Role.WALL, Role.WALL, Role.DOOR] == roles((OUTSIDE, WALL, arced))
+
+
 @pytest.mark.parametrize("opened", [15, 40, 70, -15, -60])
 def test_a_leaf_without_an_arc_is_a_door_if_it_stands_ajar(opened):
     turn = math.radians(90 - opened)

@@ -9,6 +9,7 @@ import pytest
 from flats import BLACK, LABELS, OUTSIDE, RED, ROOMS, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.geometry import Polyline
 from pilotage.interpretation import Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
+from pilotage.maps import DecompositionSettings, decompose
 
 
 def test_plain_strokes_stay_as_they_were_drawn():
@@ -50,6 +51,33 @@ def test_walls_painted_with_a_thickness_are_solid():
     assert interpret(Sheet(painted)).sketch.solids
     assert are_joined(painted)
     assert 2 == len([cell for cell in graph_of(painted).cells if cell.label])
+
+
+def test_what_lies_between_rows_of_rooms_is_a_corridor_and_no_wall():
+    rooms = [(x, y) for x in (0, 64, 128, 192) for y in (0, 44, 88, 132)]
+    walls = [box(x, y, x + 60, y + 40, pen=Pen(BLACK, 1.0)) for x, y in rooms]
+    gaps = [stroke((x + 28, y), (x + 31, y), color=WHITE, width=2.0) for x, y in rooms if y]
+    outside = box(0, 0, 252, 172, pen=Pen(BLACK, 1.0))
+
+    sketch = interpret(Sheet((outside, *walls, *gaps))).sketch
+
+    assert not sketch.solids
+    assert len(decompose(sketch, DecompositionSettings()).cells) > len(rooms)
+
+
+def test_walls_that_are_named_need_no_doors():
+    names = ("walls",)
+    outer = [box(k, k, 100 - k, 80 - k, pen=Pen(BLACK, 1.0), names=names) for k in (0, 2)]
+    inner = [box(49, y, 51, top, pen=Pen(BLACK, 1.0), names=names) for y, top in ((2, 30), (42, 78))]
+
+    assert are_joined((*outer, *inner, stroke((70, 20), (80, 20))))
+
+
+def test_a_wall_whose_faces_nearly_meet_parts_rooms():
+    outer = (box(-2, -2, 102, 82, pen=Pen(BLACK, 1.0)), box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)))
+    wedge = [stroke((50, 0), (50, 80)), stroke((50.01, 0), (51.5, 80))]
+
+    assert not are_joined((*outer, *wedge))
 
 
 def test_a_lawn_is_no_wall_though_a_house_and_paths_leave_little_of_it():

@@ -51,6 +51,14 @@ def test_a_room_at_the_outer_wall_needs_no_door():
     assert holds(graph, (35.0, 10.0))
 
 
+def test_where_most_rooms_are_closed_none_is_a_block():
+    rows = [(0, 7), (40, 7)], [(0, 13), (40, 13)]
+    columns = [(13, 0), (13, 3)], [(13, 5), (13, 20)], [(27, 0), (27, 20)]
+    graph = decomposed(HALL, *rows, *columns)
+
+    assert holds(graph, (20.0, 10.0))
+
+
 @needs_sketches
 def test_in_a_sketch_a_corridor_beyond_a_yard_is_inside_and_the_block_beside_it_is_not():
     graph = decompose(open_map(SKETCHES / "csail" / "quick.svg"), DecompositionSettings())

@@ -1,9 +1,9 @@
-"""Find doors that are marked on walls without a gap: by bars along them, or by small squares."""
+"""Find doors that are marked on walls without a gap: by bars along or across them, or by small squares."""
 
 from collections import defaultdict
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -31,7 +31,7 @@ NEAR = 0.002
 """Lines that come this near lie on each other, as a share of the drawing's diagonal."""
 
 USUAL = 0.03
-"""Width of a door that a square marks, as a share of the drawing's diagonal."""
+"""Width of a door that a square or a bar across its wall marks, as a share of the drawing's diagonal."""
 
 BEYOND = 0.01
 """Least distance beyond a bar at which its wall goes on, as a share of the drawing's diagonal."""
@@ -56,6 +56,7 @@ class Bar:
     place: int  # of its mark, among those seen
     ends: Array  # (2, 2), on the wall
     width: float  # across the wall [drawing units]
+    tips: Array = field(default_factory=lambda: np.empty((0, 2)))  # of a bar across the wall: its free ends
 
     @property
     def length(self) -> float:
@@ -72,6 +73,7 @@ class Bar:
 def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diagonal: float) -> list[Bar]:
     """Find the bars and squares that mark doors: alike, on walls, each between two rooms that are closed.
 
+    A line may lie along its wall, or stand upright on it or across it with its other ends free.
     Where walls have gaps for doors, what lies on both sides of them is one room: there are no such marks.
     One mark is enough if it is among those named doors.
     """
@@ -83,7 +85,7 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
     for places in shapes.values():
         least = 1 if seen[places[0]].number in named else ALIKE
         bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
-        if len(places) < least or len(bars) < least:
+        if len({bar.place for bar in bars}) < least:
             continue
         own = set(places)
         others = [mark for place, mark in enumerate(seen) if place not in own]
@@ -94,7 +96,7 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
 
 
 def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
-    """Return the bar that a mark draws; of a square both that it may be; none for all else."""
+    """Return the bar that a mark draws; of a square or a line all that it may be; none for all else."""
     mark = sheet.marks[seen[place].number]
     if len(mark.outlines) != 1 or len(mark.outlines[0]) > 5:
         return []
@@ -109,6 +111,8 @@ def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> 
     is_square = mark.fill is not None and width >= SQUARE * length and length <= LARGEST_SQUARE * diagonal
     if not is_square and width > SLENDER * length:
         return []
+    if len(points) == 2:
+        return [*upright_bars(place, points, diagonal), Bar(place, points, 0.0)]
     wide = max(USUAL * diagonal / length, 1.0) if is_square else 1.0
     return [
         Bar(place, middle + np.array([[-0.5], [0.5]]) * wide * side, float(width))
@@ -116,11 +120,21 @@ def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> 
     ]
 
 
+def upright_bars(place: int, ends: Array, diagonal: float) -> list[Bar]:
+    """Return the bars across a wall that a line may be: with its middle or with one end on the wall."""
+    along = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0]))
+    half = USUAL * diagonal / 2.0 * np.array([-along[1], along[0]])
+    feet = ((ends.mean(axis=0), ends), (ends[0], ends[1:]), (ends[1], ends[:1]))
+    return [Bar(place, np.array([foot - half, foot + half]), 0.0, tips) for foot, tips in feet]
+
+
 def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], least: int, diagonal: float) -> list[Bar]:
     """Keep bars between two rooms, told by the other marks; none if fewer than `least` are on walls."""
     segments = segments_of(others)
-    on_wall = [bar for bar in bars if goes_on(bar, segments, diagonal)]
-    if len(on_wall) < least:
+    on_wall = [
+        bar for bar in bars if goes_on(bar, segments, diagonal) and is_free(bar.tips, segments, diagonal)
+    ]
+    if len({bar.place for bar in on_wall}) < least:
         return []
     grain = NEAR * diagonal / 2.0
     pieces = on_grid(np.concatenate([segments.ends, *(bar.ends[None] for bar in on_wall)]), grain)
@@ -152,6 +166,12 @@ def goes_on(bar: Bar, segments: Segments, diagonal: float) -> bool:
         if not ((turn <= LEVEL * lengths) & (lengths > bar.length / 2.0)).any():
             return False
     return True
+
+
+def is_free(tips: Array, segments: Segments, diagonal: float) -> bool:
+    """Tell whether no line comes near to any of some points (n, 2)."""
+    near = segments.tree.query(shapely.points(tips), predicate="dwithin", distance=NEAR * diagonal)
+    return bool(near.size == 0)
 
 
 def without_bars(seen: Sequence[Seen], bars: Sequence[Bar], diagonal: float) -> list[Seen]:

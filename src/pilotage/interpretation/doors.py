@@ -1,7 +1,7 @@
 """Find doors by what is drawn of them: an arc about the hinge, and a leaf."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.interpretation.arcs import AJAR, Arc, find_arcs
+from pilotage.interpretation.arcs import AJAR, EVEN, UPRIGHT, Arc, find_arcs
 from pilotage.interpretation.closing import closings
 from pilotage.interpretation.leaves import find_leaves
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of, united
@@ -89,7 +89,7 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     radii = (RADII[0] * diagonal, RADII[1] * diagonal)
     arcs = [(arc, place) for arc, place in arcs if radii[0] <= arc.radius <= radii[1]]
     segments = segments_of(seen)
-    judged = [(arc, marks, *judge(arc, segments)) for arc, marks in without_twins(arcs)]
+    judged = [righted(arc, marks, segments) for arc, marks in without_twins(arcs)]
     judged = [one for one in judged if not one[0].is_part or is_notch(one[0], *one[2:])]
     ajar = without_odd_walls(
         [arc for arc in find_leaves(sheet, seen, segments, radii) if judge(arc, segments)[1][1] == 2.0]
@@ -195,6 +195,38 @@ def judge(arc: Arc, segments: Segments) -> tuple[NDArray[np.bool_], Array]:
             )
             walls[k] += len(near) > 0
     return leaves, walls
+
+
+def righted(
+    arc: Arc, marks: tuple[int, ...], segments: Segments
+) -> tuple[Arc, tuple[int, ...], NDArray[np.bool_], Array]:
+    """Judge an arc; it is mirrored over its chord if only so a wall runs along its hinge and latch.
+
+    The sense of an arc is easily mistaken where it is written by hand.
+    """
+    mirrored = replace(arc, center=arc.ends.sum(axis=0) - arc.center)
+    leaves, walls = judge(arc, segments)
+    if is_quarter(arc) and not leaves.any() and walls.max() < 2.0 and is_at_wall(mirrored, segments):
+        return mirrored, marks, *judge(mirrored, segments)
+    return arc, marks, leaves, walls
+
+
+def is_quarter(arc: Arc) -> bool:
+    """Tell whether an arc is a quarter circle in even chords, which no hand draws."""
+    chords = np.hypot(*np.diff(arc.vertices, axis=0).T)
+    is_even = chords.max() <= EVEN * chords.min()
+    return bool(not arc.is_part and is_even and abs(arc.sweep - np.pi / 2.0) <= UPRIGHT)
+
+
+def is_at_wall(arc: Arc, segments: Segments) -> bool:
+    """Tell whether one straight wall runs from before an arc's hinge to beyond one of its ends."""
+    for end in arc.ends:
+        along = BESIDE * (end - arc.center)
+        places = shapely.points([arc.center - along, end + along])
+        place, near = segments.tree.query(places, predicate="dwithin", distance=SLACK * arc.radius)
+        if len(np.intersect1d(near[place == 0], near[place == 1])):
+            return True
+    return False
 
 
 def is_notch(arc: Arc, leaves: NDArray[np.bool_], walls: Array) -> bool:

@@ -38,13 +38,10 @@ def find_partitions(
     rooms = large[inner & ~narrow]
     if len(rooms) < 2:
         return NOTHING
-    borders = shapely.boundary(rooms)
-    tree = shapely.STRtree(rooms)
-    first, second = tree.query(rooms, predicate="intersects")
-    common = [
-        shapely.intersection(borders[a], borders[b]) for a, b in zip(first, second, strict=True) if a < b
-    ]
-    shared = shapely.buffer(shapely.union_all(common), TOUCHING * width / 4.0) if common else NOTHING
+    borders = shapely.buffer(shapely.boundary(rooms), grain)
+    first, second = shapely.STRtree(rooms).query(rooms, predicate="dwithin", distance=2.0 * grain)
+    pairs = first < second
+    shared = shapely.union_all(shapely.intersection(borders[first[pairs]], borders[second[pairs]]))
     kept = [part for part in parts_of(shapely.intersection(loose, shared)) if part.length > TOUCHING * width]
     return shapely.multilinestrings(kept) if kept else NOTHING
 

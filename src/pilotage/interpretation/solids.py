@@ -63,7 +63,7 @@ COARSE = 0.05
 """Lines are rounded to this share of a gap to see what they enclose."""
 
 ENCLOSING = 0.2
-"""Solids are the walls of a plan if they enclose this share of what all lines enclose."""
+"""Painted solids are the walls of a plan if they enclose this share of what all lines enclose."""
 
 
 def lightness(color: Color) -> float:
@@ -202,7 +202,7 @@ def enclosed(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> fl
     )
 
 
-def are_walls(solid: shapely.Geometry, lines: shapely.Geometry, gap: float) -> bool:
-    """Tell whether solids are the walls of a plan: they enclose its rooms."""
+def are_walls(solid: shapely.Geometry, lines: shapely.Geometry, gap: float, least: float = ENCLOSING) -> bool:
+    """Tell whether solids are the walls of a plan: they enclose its rooms, `least` of what all lines do."""
     inside = enclosed(solid, NOTHING, gap)
-    return inside > 0.0 and inside >= ENCLOSING * enclosed(solid, lines, gap)
+    return inside > 0.0 and inside >= least * enclosed(solid, lines, gap)

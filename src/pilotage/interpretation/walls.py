@@ -15,6 +15,7 @@ from pilotage.interpretation.partitions import TOUCHING, find_partitions
 from pilotage.interpretation.pens import by_style
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
+    ENCLOSING,
     are_walls,
     dark_areas,
     enclosed,
@@ -64,6 +65,10 @@ EDGE = 0.0005
 
 SLIVER = 0.21
 """Walls are thicker than this share of the thickest; a leaf that is drawn shut is not."""
+
+FACED = 0.5
+"""Where no door is drawn, two faces are of walls if these enclose this share of what all lines do, not of a
+corridor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,9 +127,11 @@ class Drawn:
 
     def share_of_doors(self, walls: shapely.Geometry) -> float:
         """Tell how many of the doors have a wall at their hinge, as a share; none if there are no doors."""
+        if not self.doors:
+            return 0.0
         hinges = shapely.points([door.hinge for door in self.doors])
         reach = np.array([AT_DOOR * door.width for door in self.doors])
-        return float((shapely.distance(hinges, walls) <= reach).mean()) if self.doors else 0.0
+        return float((shapely.distance(hinges, walls) <= reach).mean())
 
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
@@ -217,7 +224,7 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         return None
     filled = filled_between(drawn.lines, drawn.solid, thickness)
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
-    if not are_walls(walls, drawn.lines, gap):
+    if not are_walls(walls, drawn.lines, gap, FACED if drawn.door_width is None else ENCLOSING):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")

@@ -128,7 +128,9 @@ def ends_at(sign: Mask, black: Mask) -> Iterator[End]:
             and spread[1] > 2.0 * spread[0]
             and share_within(sign, at + EDGE * along, at + 2 * EDGE * along) == 1.0
         ):
-            yield End(at, along, float(np.sqrt(12.0 * spread[0] / len(places) + 1.0)))  # of a row of n pixels: n
+            yield End(
+                at, along, float(np.sqrt(12.0 * spread[0] / len(places) + 1.0))
+            )  # of a row of n pixels: n
 
 
 def grown(sign: Mask) -> Mask:

@@ -17,6 +17,9 @@ FRONT_DOOR = 0.6
 BLOCK_OUTSIDE = 0.2
 """A region without an opening is solid unless a larger share of its outline faces the outside."""
 
+MOST = 0.5
+"""Doors were not drawn if more than this share of the regions is closed."""
+
 
 @dataclass(frozen=True, slots=True)
 class Openings:
@@ -37,7 +40,7 @@ def drop_outdoors(
     """Drop yards and solid blocks among the regions (p,) of pieces: -1.
 
     `titled` tells the pieces (p,) in which something is written. A closed region with words is a room, and so
-    is each one where solids are known, or where no region has a door: then doors were not drawn at all.
+    is each one where solids are known, or where doors were not drawn.
     A region that opens to the outside alone is a room if it does so by doors, and has words or solids are
     known. What gapes at the outside is a yard only where solids are known: in a sketch the end of a room or
     corridor is often left open.
@@ -110,14 +113,18 @@ def does_gape(space: FreeSpace, members: NDArray[np.bool_], openings: Openings) 
 
 
 def find_blocks(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
-    """Find closed regions between others: what corridors run around is solid unless it has a door."""
+    """Find closed regions between others: what corridors run around is solid unless it has a door.
+
+    Where most regions are closed, two at least at the outer wall, doors were not drawn: there are none.
+    """
     outdoors = shapely.union_all(space.tessellation.pieces[space.outside])
-    blocks = []
-    for number in np.unique(regions[regions >= 0]):
+    numbers, blocks, closed = np.unique(regions[regions >= 0]), [], 0
+    for number in numbers:
         openings = openings_of(space, regions, number)
         if len(openings.exits) == 0 and len(openings.doors) == 0:
+            closed += 1
             outline = shapely.boundary(shapely.union_all(space.tessellation.pieces[regions == number]))
             facing = shapely.length(shapely.intersection(outline, outdoors))
             if facing <= BLOCK_OUTSIDE * shapely.length(outline):
                 blocks.append(int(number))
-    return blocks
+    return [] if closed > MOST * len(numbers) and closed > len(blocks) + 1 else blocks
