@@ -16,6 +16,7 @@ from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import told_role
 from pilotage.interpretation.origin import moved_sheet, moved_sketch, origin_of
 from pilotage.interpretation.paint import Seen, polylines_of
+from pilotage.interpretation.painted import find_painted_rooms, outlined
 from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
@@ -60,6 +61,9 @@ def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -
 def interpret_near(sheet: Sheet, layers: Mapping[str, Role]) -> Interpretation:
     """Tell walls from all else on a sheet that is near the origin, as `interpret` does."""
     view = view_of(sheet, layers)
+    painted = find_painted_rooms(view)
+    if painted:
+        view = view_of(outlined(sheet, painted), layers)
     parts = take_apart(view)
     text_roles = [
         told_role(text.names, layers)
@@ -69,7 +73,7 @@ def interpret_near(sheet: Sheet, layers: Mapping[str, Role]) -> Interpretation:
     return Interpretation(
         sketch_of(view, parts, text_roles),
         sheet,
-        find_meanings(sheet, evidence_of(view, parts)),
+        find_meanings(sheet, evidence_of(view, parts, painted)),
         tuple(Meaning(*role) for role in text_roles),
     )
 
@@ -107,7 +111,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
     )
 
 
-def evidence_of(view: View, parts: Parts) -> Evidence:
+def evidence_of(view: View, parts: Parts, painted: Sequence[int]) -> Evidence:
     """Gather what tells the meaning of each mark."""
     named = {number: Meaning(*role) for number, role in view.guessed.items() if role[0] is not Role.WALL}
     return Evidence(
@@ -115,6 +119,7 @@ def evidence_of(view: View, parts: Parts) -> Evidence:
         set(view.paper.sheets),
         view.letters,
         {
+            **dict.fromkeys(painted, Meaning(Role.WALL, "painted as a room; its edge is the wall")),
             **dict.fromkeys(parts.dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
             **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in parts.halves},
             **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),

@@ -1,0 +1,68 @@
+"""Find rooms that are told by their paint alone: pale fills without a line, with words in them."""
+
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from pilotage.interpretation.floors import is_floor
+from pilotage.interpretation.paint import Seen, united
+from pilotage.interpretation.sheet import BLACK, Pen, Role, Sheet
+from pilotage.interpretation.view import View
+
+FEW = 3
+"""Fewer fills with words are signs or furniture."""
+
+MOST = 0.5
+"""More than this share of all words stand in them; else they are a legend beside the plan."""
+
+COVERING = 0.3
+"""They fill at least this share of their hull; words on desks and cupboards are farther apart."""
+
+WALLED = 0.5
+"""Where walls are drawn, they run along more than this share of the outline of most floors."""
+
+BESIDE = 0.01
+"""A wall is drawn along an outline if it comes this near, as a share of the drawing's diagonal."""
+
+
+def find_painted_rooms(view: View) -> list[int]:
+    """List the fills that are rooms and floors of a drawing without walls; none if it has walls."""
+    fills = [mark for mark in view.visible if is_pale_fill(view, mark)]
+    areas = np.array([mark.area for mark in fills], dtype=object)
+    if len(fills) < FEW or not view.sheet.texts:
+        return []
+    words = shapely.points([text.position for text in view.sheet.texts])
+    inside, around = shapely.STRtree(areas).query(words, predicate="within")
+    named = areas[np.unique(around)]
+    if len(named) < FEW or len(np.unique(inside)) <= MOST * len(words):
+        return []
+    if shapely.area(named).sum() < COVERING * shapely.convex_hull(shapely.union_all(named)).area:
+        return []
+    own = {mark.number for mark in fills}
+    others = [united(mark.line, mark.area) for mark in view.visible if mark.number not in own]
+    walls = shapely.buffer(shapely.union_all(others), BESIDE * view.diagonal)
+    outlines = shapely.boundary(named)
+    walled = shapely.length(shapely.intersection(outlines, walls)) / shapely.length(outlines)
+    return sorted(own) if float(np.median(walled)) < WALLED else []
+
+
+def is_pale_fill(view: View, mark: Seen) -> bool:
+    """Tell whether a mark is a fill in the color of floors, without a line and without a role."""
+    drawn = view.sheet.marks[mark.number]
+    return (
+        drawn.fill is not None
+        and not mark.area.is_empty
+        and mark.line.is_empty
+        and is_floor(drawn.fill, view.paper.ground)
+        and view.role(mark) is Role.WALL
+    )
+
+
+def outlined(sheet: Sheet, numbers: list[int]) -> Sheet:
+    """Draw a line around some marks of a sheet."""
+    chosen = set(numbers)
+    marks = (
+        replace(mark, pen=Pen(BLACK)) if number in chosen else mark for number, mark in enumerate(sheet.marks)
+    )
+    return replace(sheet, marks=tuple(marks))
