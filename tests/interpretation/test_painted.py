@@ -38,6 +38,16 @@ def test_painted_fills_with_words_are_rooms_where_no_walls_are_drawn(gap, fills,
     }
 
 
+def test_where_nothing_else_is_drawn_fills_are_rooms_without_words():
+    marks, _ = cards(gap=2.0)
+
+    graph = decompose(interpret(Sheet(marks)).sketch, DecompositionSettings())
+
+    assert {3} == {len({graph.cell_at((x, 20.0)) for x in (15.0, 47.0, 79.0)})}
+    with pytest.raises(NoWallsError):
+        interpret(Sheet((box(0, 0, 30, 40, fill=(1.0, 1.0, 0.99)),)))
+
+
 def test_a_painted_corridor_without_words_is_a_room_too():
     marks, texts = cards()
 
@@ -67,8 +77,8 @@ def test_a_legend_beside_a_plan_holds_few_of_its_words():
 
 def test_two_fills_are_signs_and_words_far_apart_are_on_furniture():
     marks, texts = cards(count=2)
-    with pytest.raises(NoWallsError):
-        interpret(Sheet(marks, texts))
+    signs = interpret(Sheet((*marks, *WITH_GAP), texts)).meanings
+    assert [Role.FLOOR] * 2 == [meaning.role for meaning in signs[:2]]
     desks = tuple(box(x, y, x + 8, y + 6, fill=BLUE) for x, y in ((10, 10), (80, 10), (10, 60), (80, 60)))
     words = tuple(Text("desk", (x, y), 2.0) for x, y in ((14, 13), (84, 13), (14, 63), (84, 63)))
 

@@ -1,4 +1,4 @@
-"""Find rooms that are told by their paint alone: pale fills without a line, with words in them."""
+"""Find rooms that are told by their paint alone: pale fills without a line, where no walls are drawn."""
 
 from dataclasses import replace
 
@@ -27,20 +27,25 @@ BESIDE = 0.01
 
 
 def find_painted_rooms(view: View) -> list[int]:
-    """List the fills that are rooms and floors of a drawing without walls; none if it has walls."""
+    """List the fills that are rooms and floors of a drawing without walls; none if it has walls.
+
+    They are if nothing else is drawn, or if most words stand in them and no walls run along these.
+    """
     fills = [mark for mark in view.visible if is_pale_fill(view, mark)]
-    areas = np.array([mark.area for mark in fills], dtype=object)
+    own = {mark.number for mark in fills}
+    others = [united(mark.line, mark.area) for mark in view.visible if mark.number not in own]
+    if not others:
+        return sorted(own)
     if len(fills) < FEW or not view.sheet.texts:
         return []
     words = shapely.points([text.position for text in view.sheet.texts])
+    areas = np.array([mark.area for mark in fills], dtype=object)
     inside, around = shapely.STRtree(areas).query(words, predicate="within")
     named = areas[np.unique(around)]
     if len(named) < FEW or len(np.unique(inside)) <= MOST * len(words):
         return []
     if shapely.area(named).sum() < COVERING * shapely.convex_hull(shapely.union_all(named)).area:
         return []
-    own = {mark.number for mark in fills}
-    others = [united(mark.line, mark.area) for mark in view.visible if mark.number not in own]
     walls = shapely.buffer(shapely.union_all(others), BESIDE * view.diagonal)
     outlines = shapely.boundary(named)
     walled = shapely.length(shapely.intersection(outlines, walls)) / shapely.length(outlines)
