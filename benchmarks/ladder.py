@@ -50,7 +50,7 @@ KNOWN_OF_PEOPLE = {
     "crossing": "0.01 to 0.04",
     "undrawn": "up to 0.14",
     "rooms_missing": "up to 0.25",
-    "shortening": "",
+    "shortening": "-",
 }
 """What was measured of drawings by people that are not among the data, for comparison."""
 

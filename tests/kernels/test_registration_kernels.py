@@ -136,9 +136,8 @@ def test_a_displaced_room_is_put_back(x, y, theta):
     pose, _, inlier_weight = refine_pose(samples, field, start, start, FREE, 1.0, SCALES, 0.5, 0.1)
 
     np.testing.assert_allclose(pose, true, atol=1e-3)
-    assert (
-        inlier_weight > 0.95 * samples.weights.sum()
-    )  # in a corner the nearest segment may be the other wall
+    least = 0.95 * samples.weights.sum()  # in a corner the nearest segment may be the other wall
+    assert inlier_weight > least
 
 
 def test_along_a_corridor_the_prior_holds():

@@ -53,7 +53,8 @@ def take_apart(view: View) -> Parts:
     signs, written = find_signs(sheet, unnamed, diagonal)
     built = [mark for mark in built if mark.number not in measuring | signs]
     doors = find_doors(sheet, built, diagonal)
-    called_doors = {number for number, (role, _) in view.guessed.items() if role is Role.DOOR}
+    roles = {number: role for number, (role, _) in view.guessed.items()}
+    called_doors = {number for number, role in roles.items() if role is Role.DOOR}
     bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
     halves = find_halves(sheet, view.drawn, built, ground, diagonal)
     left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
@@ -63,7 +64,7 @@ def take_apart(view: View) -> Parts:
     walls = find_walls(
         lines,
         sheet,
-        {number: role for number, (role, _) in view.guessed.items()},
+        roles,
         doors,
         floors=find_floors(may_be_floors(view), ground),
         ground=ground,

@@ -15,7 +15,6 @@ CLOSE_BY = 1.5
 TO_BLAME = 3.0
 """Largest distance [m] of the gateway that blocks a robot which is stalled."""
 
-
 GETTING_THROUGH = 4.0 / 3.0
 """How long a robot may stay near a gateway, in times its patience: it slows down for a narrow one."""
 
@@ -57,8 +56,9 @@ class BlockedGateways:
     ) -> "BlockedGateways":
         """Block a gateway that the robot, `here` (2,) in odom [m], stays close to and does not get through.
 
-        It is blocked, at the time `stamp` [s], once the robot stayed near it for too long for its `patience`
-        [s]; `lasted` [s] is the time since the last call. Going to and fro between gateways counts for each.
+        It is blocked, at the time `stamp` [s], once the robot stayed near it for longer than `patience` [s]
+        times `GETTING_THROUGH`; `lasted` [s] is the time since the last call. Going to and fro between
+        gateways counts for each.
         """
         time_near = self.time_near
         if time_near and math.dist(here, self.near_from) > 2.0 * CLOSE_BY:

@@ -29,7 +29,7 @@ class Statistics:
     crossing: float  # share of steps that cross a drawn stroke
     undrawn: float  # share of the way in rooms that are not drawn
     rooms_missing: float  # share of rooms
-    shortening: float  # of what is long: local stretch over that of the view on the drawing, negated
+    shortening: float  # of drawn views along their longer axis, as `shortening` tells
 
 
 def statistics_of(plan: Plan, way: Array, rooms: Rooms) -> Statistics:

@@ -128,9 +128,8 @@ def ends_at(sign: Mask, black: Mask) -> Iterator[End]:
             and spread[1] > 2.0 * spread[0]
             and share_within(sign, at + EDGE * along, at + 2 * EDGE * along) == 1.0
         ):
-            yield End(
-                at, along, float(np.sqrt(12.0 * spread[0] / len(places) + 1.0))
-            )  # of a row of n pixels: n
+            variance = spread[0] / len(places)  # of a row of n pixels: (n^2 - 1) / 12
+            yield End(at, along, float(np.sqrt(12.0 * variance + 1.0)))
 
 
 def grown(sign: Mask) -> Mask:

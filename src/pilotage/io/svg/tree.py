@@ -70,9 +70,8 @@ class Place:
 def walk(root: Element) -> Iterator[Drawn]:
     """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
     sheet = StyleSheet.of(root)
-    by_id = {
-        element.get("id"): element for element in reversed(list(root.iter())) if element.get("id")
-    }  # the first
+    backwards = reversed(list(root.iter()))  # of two elements with one id the first counts
+    by_id = {element.get("id"): element for element in backwards if element.get("id")}
     servers = PaintServers(by_id, sheet)
     check_size(root)
     waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]

@@ -18,7 +18,9 @@ BLOCK_OUTSIDE = 0.2
 """A region without an opening is solid unless a larger share of its outline faces the outside."""
 
 MOST = 0.5
-"""Doors were not drawn if more than this share of the regions is closed."""
+"""Doors were not drawn if more than this share of the regions is closed ..."""
+AT_OUTER_WALL = 2
+"""... and at least so many of these lie at the outer wall."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,16 +117,20 @@ def does_gape(space: FreeSpace, members: NDArray[np.bool_], openings: Openings) 
 def find_blocks(space: FreeSpace, regions: NDArray[np.int64]) -> list[int]:
     """Find closed regions between others: what corridors run around is solid unless it has a door.
 
-    Where most regions are closed, two at least at the outer wall, doors were not drawn: there are none.
+    Where doors were not drawn there are none.
     """
     outdoors = shapely.union_all(space.tessellation.pieces[space.outside])
-    numbers, blocks, closed = np.unique(regions[regions >= 0]), [], 0
+    numbers = np.unique(regions[regions >= 0])
+    blocks: list[int] = []
+    at_outer_wall = 0
     for number in numbers:
         openings = openings_of(space, regions, number)
         if len(openings.exits) == 0 and len(openings.doors) == 0:
-            closed += 1
             outline = shapely.boundary(shapely.union_all(space.tessellation.pieces[regions == number]))
             facing = shapely.length(shapely.intersection(outline, outdoors))
             if facing <= BLOCK_OUTSIDE * shapely.length(outline):
                 blocks.append(int(number))
-    return [] if closed > MOST * len(numbers) and closed > len(blocks) + 1 else blocks
+            else:
+                at_outer_wall += 1
+    most_are_closed = len(blocks) + at_outer_wall > MOST * len(numbers)
+    return [] if most_are_closed and at_outer_wall >= AT_OUTER_WALL else blocks
