@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
-from pilotage.drives import Drive
 from pilotage.errors import FileError, PilotageError
 from pilotage.navigation import Step
 from pilotage.web.bending import Bending
 from pilotage.web.corrected import corrected_svg
 from pilotage.web.drawings import UnreadableError
+from pilotage.web.exports import write_export
 from pilotage.web.fate import FATES
-from pilotage.web.marks import changes
+from pilotage.web.marks import changes, mark
 from pilotage.web.order import FARTHEST, SPEEDS, Order, number, place, switch
 from pilotage.web.playback import Playback
 from pilotage.web.replay import Replay
@@ -268,30 +268,6 @@ HANDLERS = {
     "export": Driver._export,  # noqa: SLF001
 }
 """What the other messages do."""
-
-
-def mark(t: float, kind: str, text: str) -> dict[str, object]:
-    """Describe a mark."""
-    return {"t": round(t, 2), "kind": kind, "text": text}
-
-
-def write_export(kind: str, drive: Drive, path: Path, title: str) -> None:
-    """Write a journal, a film or a picture."""
-    if kind == "journal":
-        from pilotage.io.journal import journal_file
-
-        with journal_file(path, drive.sketch) as write:
-            for step, scene in zip(drive.steps, drive.scenes, strict=True):
-                write(step, scene)
-    elif kind == "film":
-        from pilotage.figures.animation import animate
-
-        animate(drive, path)
-    else:
-        from pilotage.figures.drive import drive_figure
-        from pilotage.figures.style import save
-
-        save(drive_figure(drive, title), path)
 
 
 def be_polite() -> None:

@@ -33,3 +33,8 @@ def changes(before: Step | None, now: Step, graph: CellGraph) -> Iterator[tuple[
 def kind_of(outcome: Outcome) -> str:
     """Return the kind of the mark at the end of a drive."""
     return "reached" if outcome is Outcome.REACHED else "gave up"
+
+
+def mark(t: float, kind: str, text: str) -> dict[str, object]:
+    """Describe a mark."""
+    return {"t": round(t, 2), "kind": kind, "text": text}
