@@ -38,6 +38,8 @@ NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], diagonal: float) -> set[int]:
     """Find the marks without a name, by number, that are dimension lines, and the signs at their ends."""
     texts = [text for text in sheet.texts if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)]
+    if not texts:
+        return set()
     unnamed = [mark for mark in seen if mark.number not in named]
     signs = [
         (mark.number, extent, tip)
@@ -45,31 +47,35 @@ def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], d
         if (extent := extent_of(sheet.marks[mark.number])) <= SIGN * diagonal
         for tip in tips_of(sheet.marks[mark.number])
     ]
-    if not texts or not signs:
+    lines = measured_lines(sheet, unnamed, texts, diagonal)
+    if not signs or not lines:
         return set()
     tree = shapely.STRtree(shapely.points([tip for *_, tip in signs]))
+    found: set[int] = set()
+    for number, ends in lines:
+        most = SHORT * float(np.hypot(*(ends[1] - ends[0])))
+        near = tree.query(shapely.points(ends), predicate="dwithin", distance=AT * diagonal).T.tolist()
+        small = [(end, signs[place][0]) for end, place in near if signs[place][1] <= most]
+        if {end for end, _ in small} == {0, 1}:
+            found |= {number, *(sign for _, sign in small)}
+    return found
+
+
+def measured_lines(
+    sheet: Sheet, marks: Sequence[Seen], texts: Sequence[Text], diagonal: float
+) -> list[tuple[int, Array]]:
+    """List the straight lines along which one of these numbers stands: mark and ends (2, 2) of each."""
+    lines = [(mark.number, ends) for mark in marks if (ends := ends_of(sheet.marks[mark.number])) is not None]
+    if not lines:
+        return []
     written = shapely.STRtree(shapely.points([text.position for text in texts]))
     reach = BESIDE * max(height_of(text, diagonal) for text in texts)
-    lines = [
-        (mark.number, ends) for mark in unnamed if (ends := line_of(sheet.marks[mark.number])) is not None
+    drawn = shapely.linestrings(np.array([ends for _, ends in lines]))
+    beside = written.query(drawn, predicate="dwithin", distance=reach).T.tolist()
+    along = {rank for rank, place in beside if stands_along(texts[place], lines[rank][1], diagonal)}
+    return [
+        lines[rank] for rank in sorted(along) if is_straight(sheet.marks[lines[rank][0]].outlines[0].vertices)
     ]
-    tips = shapely.points(np.array([ends for _, ends in lines]).reshape(-1, 2))
-    near: dict[int, list[int]] = {}
-    for tip, place in tree.query(tips, predicate="dwithin", distance=AT * diagonal).T.tolist():
-        near.setdefault(tip, []).append(place)
-    found: set[int] = set()
-    for rank, (number, ends) in enumerate(lines):
-        most = SHORT * float(np.hypot(*(ends[1] - ends[0])))
-        marked = [
-            [signs[place][0] for place in near.get(tip, []) if signs[place][1] <= most]
-            for tip in (2 * rank, 2 * rank + 1)
-        ]
-        if not all(marked):
-            continue
-        beside = written.query(shapely.LineString(ends), predicate="dwithin", distance=reach)
-        if any(stands_along(texts[place], ends, diagonal) for place in beside.tolist()):
-            found |= {number, *marked[0], *marked[1]}
-    return found
 
 
 def extent_of(mark: Mark) -> float:
@@ -93,14 +99,12 @@ def tips_of(mark: Mark) -> list[Array]:
     return list(points) if len(points) == 3 else []
 
 
-def line_of(mark: Mark) -> Array | None:
-    """Return the ends of a mark that is one straight line, (2, 2); None if it is none."""
+def ends_of(mark: Mark) -> Array | None:
+    """Return the ends of a mark that is one open line, (2, 2); None if it is none."""
     if mark.pen is None or len(mark.outlines) != 1 or mark.outlines[0].closed:
         return None
     points = mark.outlines[0].vertices
-    if len(points) < 2 or not (points[0] != points[-1]).any() or not is_straight(points):
-        return None
-    return np.asarray(points[[0, -1]])
+    return points[[0, -1]] if (points[0] != points[-1]).any() else None
 
 
 def stands_along(text: Text, ends: Array, diagonal: float) -> bool:

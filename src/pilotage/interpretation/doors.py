@@ -12,7 +12,7 @@ from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, EVEN, UPRIGHT, Arc, find_arcs
 from pilotage.interpretation.closing import closings
 from pilotage.interpretation.leaves import find_leaves
-from pilotage.interpretation.paint import NOTHING, Seen, parts_of, united
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Mark, Sheet
 
@@ -251,7 +251,7 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
     left = list(seen)
     if not seen:
         return left
-    tree = shapely.STRtree(np.array([united(mark.line, mark.area) for mark in seen]))
+    tree = shapely.STRtree(np.array([mark.shape for mark in seen]))
     for door in doors:
         reach = shapely.union(door.swing, door.opening)
         shapely.prepare([door.swing, door.opening])

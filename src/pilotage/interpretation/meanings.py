@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.floors import is_floor
-from pilotage.interpretation.paint import Seen, parts_of, united
+from pilotage.interpretation.paint import Seen, parts_of
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.walls import Walls
 
@@ -60,7 +60,7 @@ def meanings_of_visible(sheet: Sheet, found: Evidence) -> Iterator[tuple[int, Me
     arcs = {found.visible[place].number for door in found.doors for place in door.marks}
     left = {mark.number for mark in found.left if not (mark.line.is_empty and mark.area.is_empty)}
     walls = found.walls
-    shapes = np.array([united(mark.line, mark.area) for mark in found.visible], dtype=object)
+    shapes = np.array([mark.shape for mark in found.visible], dtype=object)
     in_thick = near(shapes, walls.solid, ALONG * found.diagonal)
     in_thin = near(shapes, walls.lines, ALONG * found.diagonal)
     for mark, is_thick, is_thin in zip(found.visible, in_thick.tolist(), in_thin.tolist(), strict=True):

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -34,6 +35,11 @@ class Seen:
     line: shapely.Geometry  # where its pen is seen, a line without width
     area: shapely.Geometry  # where its fill is seen
     whole: bool  # whether all of its line is seen
+
+    @cached_property
+    def shape(self) -> shapely.Geometry:
+        """Line and area together."""
+        return united(self.line, self.area)
 
 
 def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float) -> list[Seen]:

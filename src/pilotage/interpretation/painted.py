@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from pilotage.interpretation.floors import is_floor
-from pilotage.interpretation.paint import Seen, united
+from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.sheet import BLACK, Pen, Role, Sheet
 from pilotage.interpretation.view import View
 
@@ -33,7 +33,7 @@ def find_painted_rooms(view: View) -> list[int]:
     """
     fills = [mark for mark in view.visible if is_pale_fill(view, mark)]
     own = {mark.number for mark in fills}
-    others = [united(mark.line, mark.area) for mark in view.visible if mark.number not in own]
+    others = [mark.shape for mark in view.visible if mark.number not in own]
     if not others:
         return sorted(own)
     if len(fills) < FEW or not view.sheet.texts:

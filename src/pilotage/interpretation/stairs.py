@@ -15,7 +15,7 @@ def find_stairs(marks: Sequence[Seen], sheet: Sheet, diagonal: float) -> shapely
     """Return the area that marks of stairs and lifts enclose, or lie close together in [drawing units]."""
     shapes = [shape for mark in marks for shape in (mark.line, mark.area, enclosed_by(mark, sheet))]
     reach = STEP * diagonal
-    near = shapely.buffer(shapely.union_all(shapes), reach, cap_style="square", join_style="mitre")
+    near = shapely.union_all(shapely.buffer(shapes, reach, cap_style="square", join_style="mitre"))
     area = shapely.buffer(near, -reach * (1.0 - 1e-6), join_style="mitre")
     whole = [
         shapely.Polygon(part.exterior) for part in shapely.get_parts(area) if part.geom_type == "Polygon"
