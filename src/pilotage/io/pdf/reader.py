@@ -14,7 +14,7 @@ from pilotage.geometry import Affine2, Polyline, signed_area
 from pilotage.interpretation.sheet import Color, Pen, Sheet
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.pdf.clip import Clip, area_of, clipped_area, clipped_lines
+from pilotage.io.clip import Clip, area_of, clipped_area, clipped_lines
 from pilotage.io.pdf.document import open_page, opened, page_names
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.paths import Handle, clips_of, layers_of, matrix_of, paint_of, path_of, stroke_of
