@@ -12,9 +12,9 @@ import shapely
 from pilotage.errors import FileError
 from pilotage.geometry import Affine2, Polyline, signed_area
 from pilotage.interpretation.sheet import Color, Pen, Sheet
+from pilotage.io.clip import Clip, Part, area_of, cut
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
-from pilotage.io.clip import Clip, area_of, clipped_area, clipped_lines
 from pilotage.io.pdf.document import open_page, opened, page_names
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.paths import Handle, clips_of, layers_of, matrix_of, paint_of, path_of, stroke_of
@@ -164,9 +164,6 @@ class Walk:
         return self.clips[key]
 
 
-Part = tuple[Sequence[Polyline], Pen | None, Color | None]
-
-
 def parts_of(
     outlines: Sequence[Polyline],
     pen: Pen | None,
@@ -176,11 +173,8 @@ def parts_of(
     winding: bool,
 ) -> Iterator[Part]:
     """Divide a path into marks: areas that overlap by the winding rule, and what a clip leaves."""
-    if clip is not None and not clip.leaves_whole(np.vstack([outline.vertices for outline in outlines])):
-        if fill is not None:
-            yield clipped_area(outlines, clip.area), None, fill
-        if pen is not None:
-            yield clipped_lines(outlines, clip.area), pen, None
+    if clip is not None and not clip.leaves_whole(outlines):
+        yield from cut(outlines, pen, fill, clip)
     elif fill is not None and winding and len(outlines) > 1 and turn_alike(outlines):
         for outline in outlines:
             yield (outline,), pen, fill

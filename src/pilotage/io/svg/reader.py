@@ -8,16 +8,18 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
+import shapely
 import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.interpretation.paper import holds
+from pilotage.io.clip import Clip, area_of
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.style import local_name
-from pilotage.io.svg.tree import Drawn, walk
-from pilotage.io.svg.viewport import Viewport, read_page
+from pilotage.io.svg.tree import ClipUse, Document, Drawn
+from pilotage.io.svg.viewport import Viewport
 
 FLATNESS = 0.0005
 """How far a chord may stray from its curve, as a share of the drawing's diagonal: 2 cm in a 40 m building."""
@@ -61,7 +63,8 @@ class Shape:
 
     drawn: Drawn
     outline: svgelements.Path
-    bounds: Bounds
+    bounds: Bounds  # of what its clips leave
+    clip: Clip | None = None  # what it is cut to, in the root's coordinates
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,11 +84,12 @@ def read_content(path: Path) -> Content:
     """
     root = read_document(path)
     with reading_values(path):
-        page = read_page(root)
-        items = [item for item in walk(root) if item.style.shown]
-        shapes = [shape for item in items for shape in read_shape(item)]
+        document = Document(root)
+        items = [item for item in document.walk() if item.style.shown]
+        clips = Clips(document)
+        shapes = [shape for item in items for shape in read_shape(item, clips)]
     texts = [item for item in items if local_name(item.element.tag) in WORDED and has_text(item)]
-    return Content(shapes, texts, page, read_scale(root))
+    return Content(shapes, texts, document.page, read_scale(root))
 
 
 def read_scale(root: ET.Element) -> float | None:
@@ -128,10 +132,65 @@ def read_document(path: Path) -> ET.Element:
     return root
 
 
-def read_shape(item: Drawn) -> Iterator[Shape]:
-    """Carry a shape to the root's coordinates; texts, and shapes of no size, give none."""
+class Clips:
+    """The areas to which a document cuts what it draws; each is found once."""
+
+    def __init__(self, document: Document) -> None:
+        """Begin with none."""
+        page = document.page
+        self.page = None if page is None else shapely.box(*page.bounds)
+        self.document = document
+        self.areas: dict[tuple[str, str], shapely.Geometry | None] = {}
+        self.clips: dict[tuple[tuple[str, str], ...], Clip | None] = {}
+
+    def clip_of(self, item: Drawn) -> Clip | None:
+        """Return what is left of a shape by all that cuts it; None if nothing does."""
+        key = tuple((name, str(matrix)) for name, matrix in item.clips)
+        if key not in self.clips:
+            found = [area for use in item.clips if (area := self.area_of(use)) is not None]
+            self.clips[key] = Clip(shapely.intersection_all(found)) if found else None
+        return self.clips[key]
+
+    def area_of(self, use: ClipUse) -> shapely.Geometry | None:
+        """Return the area of a `clipPath`; None if it has no shape that can be read, or is the page.
+
+        What is drawn beside the page is read as well, for pages are often too small.
+        """
+        key = (use[0], str(use[1]))
+        if key not in self.areas:
+            outlines = [outline for item in self.document.walk_clip(use) for outline in outline_of(item)]
+            area = shapely.union_all([enclosed_by(outline) for outline in outlines])
+            is_page = self.page is not None and area.buffer(ROUNDING * self.page.length).covers(self.page)
+            self.areas[key] = None if not outlines or is_page else area
+        return self.areas[key]
+
+
+def enclosed_by(outline: svgelements.Path) -> shapely.Geometry:
+    """Return the area that an outline encloses."""
+    left, top, right, bottom = bounds_of(outline)
+    tolerance = FLATNESS * math.hypot(right - left, bottom - top)
+    return area_of([line.vertices for line in flatten(outline, tolerance)] if tolerance > 0.0 else [])
+
+
+def read_shape(item: Drawn, clips: Clips) -> Iterator[Shape]:
+    """Carry a shape to the root's coordinates; texts, and shapes of which nothing is seen, give none."""
+    if not (item.style.stroked or item.style.filled):
+        return
+    for outline in outline_of(item):
+        bounds = bounds_of(outline)
+        if not all(abs(bound) <= FARTHEST for bound in bounds):  # not a number, too
+            raise ValueError(f"<{local_name(item.element.tag)}> reaches farther than {FARTHEST:g}")
+        clip = clips.clip_of(item)
+        if clip is None:
+            yield Shape(item, outline, bounds)
+        elif (seen := clip.cut_box(bounds)) is not None:
+            yield Shape(item, outline, seen, clip)
+
+
+def outline_of(item: Drawn) -> Iterator[svgelements.Path]:
+    """Carry the outline of a shape to the root's coordinates; texts, and shapes of no size, give none."""
     kind = SHAPES.get(local_name(item.element.tag))
-    if kind is None or not (item.style.stroked or item.style.filled):
+    if kind is None:
         return
     measures = dict(item.measures)
     measures.pop("transform", None)
@@ -145,12 +204,8 @@ def read_shape(item: Drawn) -> Iterator[Shape]:
             return
         outline = svgelements.Path(shape)
     outline = (outline * item.page_from_element).reify()
-    if len(outline) < 2:
-        return
-    bounds = bounds_of(outline)
-    if not all(abs(bound) <= FARTHEST for bound in bounds):  # not a number, too
-        raise ValueError(f"<{local_name(item.element.tag)}> reaches farther than {FARTHEST:g}")
-    yield Shape(item, outline, bounds)
+    if len(outline) >= 2:
+        yield outline
 
 
 def bounds_of(outline: svgelements.Path) -> Bounds:

@@ -1,13 +1,14 @@
 """Read an SVG file as a sheet: its marks and words in paint order, nothing understood."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import svgelements
 
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
+from pilotage.io.clip import Part, cut
 from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.reader import FLATNESS, Shape, diagonal_of, flipped, read_content, reading_values
@@ -55,8 +56,8 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
     """Flatten a shape; one without length gives none."""
     if tolerance == 0.0:
         return
-    outlines = tuple(flipped(stroke) for stroke in flatten(shape.outline, tolerance))
-    drawn = shape.drawn
+    outlines = tuple(flatten(shape.outline, tolerance))
+    drawn, clip = shape.drawn, shape.clip
     pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= OPAQUE else None
     fill = color_of(drawn, "fill") if drawn.style.filled and opacity(drawn, "fill") >= OPAQUE else None
     if pen is None and drawn.style.stroked and fill is None:
@@ -68,7 +69,13 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
         names = (*names, "wall")
     if drawn.outlined in letters:
         names = (*names, "text")
-    yield Mark(outlines, pen, fill, names, drawn.groups, source_of(drawn))
+    parts: Iterable[Part] = [(outlines, pen, fill)]
+    if clip is not None and not clip.leaves_whole(outlines):
+        parts = cut(outlines, pen, fill, clip)
+    for part, line, area in parts:
+        if part:
+            up = tuple(flipped(outline) for outline in part)
+            yield Mark(up, line, area, names, drawn.groups, source_of(drawn))
 
 
 def read_pen(shape: Shape) -> Pen:

@@ -1,7 +1,7 @@
 """Walk an SVG document as it is drawn: transforms, styles and roles handed down, `use` followed."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from xml.etree.ElementTree import Element
 
@@ -9,7 +9,7 @@ from svgelements import Matrix, Viewbox
 
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
-from pilotage.io.svg.servers import PaintServers
+from pilotage.io.svg.servers import REFERENCE, PaintServers
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
@@ -35,6 +35,10 @@ MAX_LETTERS = 2_000_000
 """Letters of all paths and lists of points together: some seconds of reading."""
 
 
+ClipUse = tuple[str, Matrix]
+"""The id of a `clipPath`, and the map from the user space of what it cuts to the page."""
+
+
 @dataclass(frozen=True, slots=True)
 class Drawn:
     """A shape or text with all that it has inherited."""
@@ -49,6 +53,7 @@ class Drawn:
     names: tuple[str, ...] = ()  # of all that hold it and its own, the outermost first
     groups: tuple[int, ...] = ()  # numbers of the groups and uses that hold it, the outermost first
     outlined: tuple[int, str] | None = None  # the text whose outlines it draws: its number, and its words
+    clips: tuple[ClipUse, ...] = ()  # what cuts it, and all that hold it
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,40 +70,82 @@ class Place:
     names: tuple[str, ...] = ()
     groups: tuple[int, ...] = ()
     outlined: tuple[int, str] | None = None
+    clips: tuple[ClipUse, ...] = ()
 
 
-def walk(root: Element) -> Iterator[Drawn]:
-    """Yield every shape and text in drawing order, its points carried to the root's viewBox coordinates."""
-    sheet = StyleSheet.of(root)
-    backwards = reversed(list(root.iter()))  # of two elements with one id the first counts
-    by_id = {element.get("id"): element for element in backwards if element.get("id")}
-    servers = PaintServers(by_id, sheet)
-    check_size(root)
-    waiting = [Place((root,), read_page(root) or UNKNOWN_PAGE)]
-    count, handed_down = 0, 0
+@dataclass
+class Effort:
+    """How much has been walked; a few lines can ask for millions of elements."""
+
+    elements: int = 0
+    handed_down: int = 0
+
+    def spend(self, place: Place) -> None:
+        """Count a step; raises ValueError if it is one too many."""
+        self.elements += 1
+        if self.elements > MAX_ELEMENTS:
+            raise ValueError(f"more than {MAX_ELEMENTS} elements, those that <use> repeats among them")
+        self.handed_down += len(place.chain) * (1 + len(place.chain[-1]))
+        if self.handed_down > MAX_HANDED_DOWN:
+            raise ValueError("too many elements in each other")
+
+
+class Document:
+    """An SVG document, and what its elements refer to; `page` is the root's viewBox."""
+
+    def __init__(self, root: Element) -> None:
+        """Collect ids and styles; raises ValueError for a document that would take minutes."""
+        check_size(root)
+        self.page = read_page(root)
+        self.start = Place((root,), self.page or UNKNOWN_PAGE)
+        self.sheet = StyleSheet.of(root)
+        backwards = reversed(list(root.iter()))  # of two elements with one id the first counts
+        self.by_id = {element.get("id"): element for element in backwards if element.get("id")}
+        self.servers = PaintServers(self.by_id, self.sheet)
+        self.effort_for_clips = Effort()
+
+    def walk(self) -> Iterator[Drawn]:
+        """Yield every shape and text in drawing order."""
+        return walk([self.start], self, Effort())
+
+    def walk_clip(self, use: ClipUse) -> Iterator[Drawn]:
+        """Yield the shapes of a `clipPath`; none if not in this file, or measured in what it cuts."""
+        name, page_from_user = use
+        clip = self.by_id.get(name)
+        if clip is None or not is_named(clip, "clipPath") or clip.get("clipPathUnits") == "objectBoundingBox":
+            return iter(())
+        page_from_clip = Matrix(clip.get("transform", "")) * page_from_user
+        chain = (*self.start.chain, clip)
+        places = [replace(self.start, chain=(*chain, child), page_from_user=page_from_clip) for child in clip]
+        return walk(places, self, self.effort_for_clips)
+
+
+def walk(places: Sequence[Place], document: Document, effort: Effort) -> Iterator[Drawn]:
+    """Yield every shape and text at these places and in what they hold, in drawing order."""
+    sheet = document.sheet
+    waiting = list(reversed(places))
     while waiting:
         place = waiting.pop()
-        count += 1
-        if count > MAX_ELEMENTS:
-            raise ValueError(f"more than {MAX_ELEMENTS} elements, those that <use> repeats among them")
-        handed_down += len(place.chain) * (1 + len(place.chain[-1]))
-        if handed_down > MAX_HANDED_DOWN:
-            raise ValueError("too many elements in each other")
+        effort.spend(place)
+        count = effort.elements
         element = place.chain[-1]
         tag = local_name(element.tag) if isinstance(element.tag, str) else ""
         if tag not in DRAWN and tag not in HOLDING and tag != "use":
             continue
         declared = sheet.declared(place.chain)
+        page_from_user = Matrix(declared.get("transform", "")) * place.page_from_user
+        clip = REFERENCE.fullmatch(declared.get("clip-path", ""))
         here = replace(
             place,
-            page_from_user=Matrix(declared.get("transform", "")) * place.page_from_user,
-            style=servers.plain(place.style.of_child(declared)),
+            page_from_user=page_from_user,
+            style=document.servers.plain(place.style.of_child(declared)),
             role=role_of(element, place.role),
             thing=thing_of(element, place.thing),
             notes={**place.notes, **noted(element)},
             names=place.names + tuple(names_of(element)),
             groups=place.groups if tag in DRAWN else (*place.groups, count),
             outlined=(count, element.get(OUTLINED, "").strip()) if element.get(OUTLINED) else place.outlined,
+            clips=(*place.clips, (clip[1], page_from_user)) if clip else place.clips,
         )
         if tag in DRAWN:
             measures = measured(declared, place.viewport)
@@ -113,9 +160,10 @@ def walk(root: Element) -> Iterator[Drawn]:
                 here.names,
                 here.groups,
                 here.outlined,
+                here.clips,
             )
         elif tag == "use":
-            waiting.extend(used(here, by_id, sheet))
+            waiting.extend(used(here, document.by_id, sheet))
         else:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
             children = alternatives(element) if tag == "switch" else list(element)
