@@ -51,6 +51,14 @@ def test_a_corridor_round_a_corner_is_one_cell():
     assert 1 == len(decomposed(*L_CORRIDOR).cells)
 
 
+def test_a_corridor_keeps_what_lies_between_two_doors():
+    walls = [[(0, y), (200, y)] for y in (400, 430)] + [[(220, y), (1200, y)] for y in (400, 430)]
+    graph = decomposed([(0, 0), (1200, 0), (1200, 830), (0, 830), (0, 0)], *walls)
+
+    assert len(graph.cells) == 3
+    assert [gateway.width for gateway in graph.gateways] == pytest.approx([20.0, 20.0], abs=1e-3)
+
+
 def test_a_hall_and_the_corridor_that_opens_into_it_are_two_cells():
     hall_and_corridor = [(0, 0), (8, 0), (8, 3), (20, 3), (20, 5), (8, 5), (8, 8), (0, 8), (0, 0)]
 

@@ -35,6 +35,9 @@ less than so many doors wide."""
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
 
+DIGITS = 3
+"""Openings that separate as much up to so many digits are alike."""
+
 
 class Regions:
     """Growing regions of pieces, and the chords that lie between each two."""
@@ -64,22 +67,23 @@ class Regions:
             self.chords_to[first].setdefault(second, []).append(int(chord))
             self.chords_to[second].setdefault(first, []).append(int(chord))
 
-    def strength(self, first: int, second: int, total: float, min_area: float) -> float:
+    def strength(self, first: int, second: int, total: float, min_area: float) -> tuple[float, float]:
         """Tell how much the openings between two regions separate them; below 1 they are merged (4.1).
 
-        What is too small is merged in any case, first with that to which it is most open. Only through a door
-        that the file tells nothing is merged but the space between two outlines of one wall.
+        What is too small is merged in any case, first with that to which it is most open; the second number
+        tells to which. So what lies before a door goes to the corridor. Only through a door that the file
+        tells nothing is merged but the space between two outlines of one wall.
         """
         smaller, least = min(self.areas[first], self.areas[second]), min_area * total
         chords = self.chords_to[first][second]
         if all(self.told[chord] for chord in chords):
             width = max(self.widths[chord] for chord in chords)
             if smaller > WITHIN_WALL * width**2:
-                return np.inf
+                return np.inf, np.inf
         separation = self.separation(first, second, smaller)
         if smaller < least and not (self.named[first] and self.named[second]):
-            return min(separation, smaller / least)
-        return separation
+            return min(separation, smaller / least), round(separation, DIGITS)
+        return separation, separation
 
     def separation(self, first: int, second: int, smaller: float) -> float:
         """Tell how much openings separate two regions, of which the smaller has this area."""
@@ -159,20 +163,21 @@ def merge_pieces(
     """
     regions = Regions(tessellation, among, named, drawn, solids_known=solids_known)
     total = float(tessellation.areas[among].sum())
-    queue: list[tuple[float, int, int, int]] = []
+    queue: list[tuple[float, float, int, int, int]] = []
 
     def consider(first: int, second: int) -> None:
         strength = regions.strength(first, second, total, min_area)
-        if strength < 1.0:
+        if strength[0] < 1.0:
             low, high = sorted((first, second))
-            heapq.heappush(queue, (strength, low, high, regions.age[low] + regions.age[high]))
+            age = regions.age[low] + regions.age[high]
+            heapq.heappush(queue, (*strength, low, high, age))
 
     for first in range(len(among)):
         for second in regions.chords_to[first]:
             if first < second:
                 consider(first, second)
     while queue:
-        _, first, second, age = heapq.heappop(queue)
+        *_, first, second, age = heapq.heappop(queue)
         ages = (regions.age[first], regions.age[second])
         if min(ages) < 0 or sum(ages) != age:
             continue
