@@ -59,6 +59,23 @@ def test_a_corridor_keeps_what_lies_between_two_doors():
     assert [gateway.width for gateway in graph.gateways] == pytest.approx([20.0, 20.0], abs=1e-3)
 
 
+def test_corridors_that_cross_are_one_cell():
+    rooms = [
+        shapely.box(x, y, X, Y)
+        for y, Y in ((0, 140), (170, 400), (430, 500))
+        for x, X in ((0, 130), (160, 500))
+    ]
+    doors = [
+        [(x, y), (x + 20, y)] for y, x in ((140, 50), (140, 290), (170, 50), (400, 50), (400, 290), (430, 50))
+    ]
+    walls = shapely.boundary(rooms) - shapely.MultiLineString(doors)
+    strokes = [line.coords for line in shapely.get_parts(shapely.line_merge(walls))]
+    graph = decomposed([(0, 0), (500, 0), (500, 500), (0, 500), (0, 0)], *strokes)
+
+    assert len(graph.cells) == len(rooms) + 1
+    assert [gateway.width for gateway in graph.gateways] == pytest.approx([20.0] * len(doors), abs=1e-3)
+
+
 def test_a_hall_and_the_corridor_that_opens_into_it_are_two_cells():
     hall_and_corridor = [(0, 0), (8, 0), (8, 3), (20, 3), (20, 5), (8, 5), (8, 8), (0, 8), (0, 0)]
 

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.maps.cells.tessellation import Tessellation
 
-NARROWING = 1.4
-"""Both sides are this many times as wide as the opening: a door."""
+NARROWING = 1.42
+"""Both sides are this many times as wide as the opening: a door. Where two corridors cross, free space is
+sqrt(2) times as wide as they are, and that is none."""
 
 MOUTH, MOUTH_DEPTH = 1.8, 0.3
 """Or one side is this many times as wide, and the smaller side has this area, in squares over the opening."""
