@@ -82,6 +82,14 @@ def test_rows_of_small_round_shapes_are_letters_and_one_alone_is_not():
     assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, *word)).cells)
 
 
+def test_words_of_one_mark_are_letters_across_the_spaces_between_them():
+    area = [letter(x) for x in (20.0, 22.5, 26.8, 29.3)]  # as in "16 m²"
+    path = Mark(tuple(outline for each in area for outline in each.outlines), fill=BLACK)
+
+    assert [Role.LABEL] == [meaning.role for meaning in meanings((*WITH_GAP, path))[3:]]
+    assert Role.LABEL not in {meaning.role for meaning in meanings((*WITH_GAP, *area))[3:]}
+
+
 def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
     eyes = [
         Mark((*letter(x).outlines, *box(x - 0.4, 39.6, x + 0.4, 40.4).outlines), fill=BLACK)

@@ -16,6 +16,9 @@ TALLEST = 0.03
 APART = 0.6
 """Letters of a word are no farther apart than this share of their height."""
 
+SPACE = 1.5
+"""Letters of one mark are no farther apart than so many of their heights: there is a space between words."""
+
 LIKE = 2.2
 """Letters of a word differ in height by no more than this factor: x and l."""
 
@@ -48,10 +51,12 @@ def find_glyphs(marks: Sequence[Mark], diagonal: float) -> set[int]:
     words = rustworkx.PyGraph()
     words.add_nodes_from(range(len(bounds)))
     shapes = shapely.box(*bounds.T)
-    reach = np.where(small, APART * sizes, 0.0)
+    reach = np.where(small, SPACE * sizes, 0.0)
     first, second = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=reach)
     alike = np.maximum(sizes[first], sizes[second]) <= LIKE * np.minimum(sizes[first], sizes[second])
-    beside = (first != second) & small[first] & small[second] & alike
+    near = shapely.distance(shapes[first], shapes[second]) <= APART * sizes[first]
+    near |= holders[first] == holders[second]
+    beside = (first != second) & small[first] & small[second] & alike & near
     words.add_edges_from_no_data(
         [(int(a), int(b)) for a, b in zip(first[beside], second[beside], strict=True)]
     )
