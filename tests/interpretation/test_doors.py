@@ -5,7 +5,7 @@ import math
 import pytest
 import shapely
 
-from flats import BLACK, OUTSIDE, WITH_GAP, arc, are_joined, box, graph_of, stroke
+from flats import BLACK, OUTSIDE, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
 from pilotage.interpretation.windows import windows
@@ -344,6 +344,19 @@ def test_where_hatching_pauses_between_rooms_there_is_a_door(pause, across):
     doors = ends_of_gateways(hatched_flat(pause=pause, across=across))
 
     assert doors == ([{"bath", "hall"}] if pause == 49 and across else [])
+
+
+@pytest.mark.parametrize(
+    ("frame", "joined"),
+    [((49, 32, 51, 40), True), ((49, 32, 51, 34), False), ((0, 32, 2, 40), False), ((49, 2, 51, 10), False)],
+    ids=["door", "column", "window", "at a corner"],
+)
+def test_a_frame_that_is_laid_over_a_wall_between_rooms_is_a_door(frame, joined):
+    flat = tuple(box(*corners, pen=PEN) for corners in HATCHED)
+
+    doors = ends_of_gateways((*flat, box(*frame, pen=PEN, fill=WHITE)))
+
+    assert doors == ([{"bath", "hall"}] if joined else [])
 
 
 PASSAGE = (box(0, 0, 100, 12, pen=PEN), stroke((50, 0), (50, 1)), stroke((50, 11), (50, 12)))
