@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.paint import NOTHING, parts_of
@@ -11,6 +12,9 @@ from pilotage.interpretation.pieces import on_grid, straight
 
 ROOM_AREA = 4.0
 """What a thin wall parts is a room if it has so much area, in squares over a door's width; a bed has less."""
+
+ISLAND_AREA = 16.0
+"""What stands free amid a room and has no door is one only if it has so much: a table for twenty has less."""
 
 ROOM_WIDTH = 1.0
 """And if it is nowhere narrower than this many widths of a door, but for corners; a counter is."""
@@ -36,6 +40,8 @@ def find_partitions(
     inner = ~shapely.contains(body, shapely.point_on_surface(large))
     narrow = shapely.is_empty(shapely.buffer(large, -ROOM_WIDTH * width / 2.0))
     rooms = large[inner & ~narrow]
+    held = standing(rooms, np.array([body, *closing]), 2.0 * grain)
+    rooms = rooms[held | (shapely.area(rooms) >= ISLAND_AREA * width**2)]
     if len(rooms) < 2:
         return NOTHING
     borders = shapely.buffer(shapely.boundary(rooms), grain)
@@ -44,6 +50,14 @@ def find_partitions(
     shared = shapely.union_all(shapely.intersection(borders[first[pairs]], borders[second[pairs]]))
     kept = [part for part in parts_of(shapely.intersection(loose, shared)) if part.length > TOUCHING * width]
     return shapely.multilinestrings(kept) if kept else NOTHING
+
+
+def standing(rooms: NDArray[np.object_], held: NDArray[np.object_], reach: float) -> NDArray[np.bool_]:
+    """Tell which rooms, (n,), stand at a wall or at a door, or at another room that does."""
+    outlines = shapely.buffer(shapely.get_exterior_ring(rooms), reach)
+    groups = parts_of(shapely.union_all(outlines))
+    groups = groups[shapely.intersects(groups, shapely.union_all(held))]
+    return np.asarray(shapely.intersects(outlines, shapely.union_all(groups)))
 
 
 def outside(lines: shapely.Geometry, body: shapely.Geometry) -> shapely.Geometry:
