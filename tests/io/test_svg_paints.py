@@ -12,6 +12,8 @@ SERVERS = """<defs>
 <pattern id="hatch"><path d="M0 0L9 9" stroke="#102030" fill="none"/></pattern>
 <pattern id="boards"><path d="M0 6H12M-1,1 l2-2" stroke="#C0B0A0"/><line y2="6" stroke="#000"/></pattern>
 <linearGradient id="glint"><stop stop-color="#fff"/><stop stop-opacity="0"/></linearGradient>
+<pattern id="grid" width="10" height="10" patternUnits="userSpaceOnUse"><path d="M10 0H0V10" fill="none"
+stroke="#ddd" stroke-width=".5"/></pattern>
 <pattern id="round" href="#round"/><linearGradient id="bare"/>
 </defs><style>:root { --pale: #EEDDCC; --floor: var(--pale) } .ground { fill: var(--floor) }</style>"""
 
@@ -53,6 +55,12 @@ def test_one_color_stands_for_a_paint(tmp_path, paint, color):
         assert channels(mark.fill) == color
     (mark,) = marks(tmp_path, f'<path fill="none" stroke="{paint}" d="M0 0H9V9"/>')
     assert channels(mark.pen.color) == color
+
+
+def test_squared_paper_is_no_fill(tmp_path):
+    assert marks(tmp_path, '<rect width="90" height="90" fill="url(#grid)"/>') == ()
+    (mark,) = marks(tmp_path, '<rect width="90" height="90" fill="url(#grid)" stroke="#000"/>')
+    assert mark.fill is None
 
 
 @pytest.mark.parametrize(

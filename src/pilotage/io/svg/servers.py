@@ -21,6 +21,9 @@ STRAIGHT = re.compile(rf"\s*(?:[Mm]{POINT}(?:[Ll]{POINT}|[HhVv]\s*{NUMBER}\s*))+
 UNKNOWN = "black"
 """The color of what is not known: something is to be seen there."""
 
+SPARSE = 0.08
+"""Lines thinner than this share of a pattern's width let the paper through: squared paper, no hatching."""
+
 MAX_HREFS = 8
 """So many gradients or patterns may refer to each other."""
 
@@ -97,7 +100,11 @@ def mean_of_stops(
 def ground_of(
     chain: Sequence[Element], shapes: Sequence[Element], outer: Style, sheet: StyleSheet
 ) -> str | None:
-    """Return the first fill of a pattern, upon which all else is drawn; else the color of its lines."""
+    """Return the first fill of a pattern, upon which all else is drawn; else the color of its lines.
+
+    Sparse lines let the paper through: then it is none.
+    """
+    tile = leading_number(chain[0].get("width", ""), 0.0) if is_in_user_units(chain[0]) else 0.0
     leaves: list[tuple[Style, bool]] = []
     waiting = [((*chain, shape), outer) for shape in reversed(shapes)]
     while waiting and len(leaves) < MAX_SHAPES:
@@ -112,10 +119,17 @@ def ground_of(
         for style, is_area in leaves:
             is_shown = is_area and style.filled if name == "fill" else style.stroked
             if is_shown and not REFERENCE.match(style.paint(name)):
+                if name == "stroke" and leading_number(style.values["stroke-width"], 1.0) < SPARSE * tile:
+                    return "none"
                 color = Color(style.paint(name))
                 opacity = leading_number(style.values[f"{name}-opacity"], 1.0) * float(color.opacity or 0.0)
                 return rgba((color.red or 0, color.green or 0, color.blue or 0, opacity * style.opacity))
     return None
+
+
+def is_in_user_units(pattern: Element) -> bool:
+    """Tell whether the width of a pattern is no share of what it fills."""
+    return pattern.get("patternUnits") == "userSpaceOnUse" and "%" not in pattern.get("width", "")
 
 
 def has_area(shape: Element) -> bool:
