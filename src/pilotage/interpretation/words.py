@@ -43,6 +43,9 @@ SIGNS = (
 
 TOKEN = re.compile(r"°?[^\W\d_]+|[\d²³]+|\S")
 
+COMMA = re.compile(r"\d+,\d+")
+"""A number with a comma is a length, though without a unit; with a point it may be that of a room."""
+
 MARK_OF_NOTHING = re.compile(r"\W*")
 """Words without a letter or a digit."""
 
@@ -65,7 +68,11 @@ def is_measure(words: str) -> bool:
     [True, True, True, False, False]
     >>> [is_measure(words) for words in ("16,9 м²", "S = 8.5 кв.м", "6帖", "面积 12 平方米", "洋室 6帖")]
     [True, True, True, True, False]
+    >>> is_measure("2,55"), is_measure("2.55")
+    (True, False)
     """
+    if COMMA.fullmatch(words.strip()):
+        return True
     tokens = TOKEN.findall(words.casefold())
     letters = [token for token in tokens if token.lstrip("°")[:1].isalpha() and token not in AROUND]
     has_number = any(token[0].isdecimal() for token in tokens)
