@@ -1,7 +1,9 @@
 """What all figures share: ink, paper, and a pen that needs no screen."""
 
+import logging
 import math
 import warnings
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +37,13 @@ RELEVANCE: Colormap = LinearSegmentedColormap.from_list(
 
 ARROW = np.array([[0.6, 0.0], [-0.4, 0.36], [-0.2, 0.0], [-0.4, -0.36]])
 """From tip to wing to tail to wing, forward along x."""
+
+FONTS = (
+    "DejaVu Sans", "Noto Sans CJK SC", "Noto Sans CJK JP", "Noto Sans CJK KR", "Microsoft YaHei", "Yu Gothic",
+    "Malgun Gothic", "PingFang SC", "Hiragino Sans", "Apple SD Gothic Neo", "WenQuanYi Zen Hei",
+    "WenQuanYi Micro Hei", "Noto Sans Devanagari", "Nirmala UI", "Noto Sans Thai", "Arial Unicode MS",
+)  # fmt: skip
+"""Fonts that systems bring with them: what the first cannot show, the next may."""
 
 DPI = 160
 MOST_EXTREME = 8.0  # of the proportions of a picture
@@ -131,7 +140,20 @@ def round_length(length: float) -> float:
 
 def show_literally(text: Text) -> None:
     """Replace what no font can show: names of files may hold bytes that are not letters."""
-    text.set_text(text.get_text().encode(errors="replace").decode())
+    words = text.get_text().encode(errors="replace").decode()
+    text.set_text(words)
+    if not words.isascii():
+        text.set_fontfamily(installed_fonts())
+
+
+@lru_cache(maxsize=1)
+def installed_fonts() -> list[str]:
+    """List the fonts that this system has, the usual one first."""
+    from matplotlib.font_manager import fontManager
+
+    logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)  # it tells of weights it has not
+    installed = set(fontManager.get_font_names())
+    return [font for font in FONTS if font in installed]
 
 
 def save(figure: Figure, path: Path | str) -> None:
