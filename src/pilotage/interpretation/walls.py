@@ -224,7 +224,12 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         return None
     filled = filled_between(drawn.lines, drawn.solid, thickness)
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
-    if not are_walls(walls, drawn.lines, gap, FACED if drawn.door_width is None else ENCLOSING):
+    if not are_walls(
+        shapely.union(walls, drawn.openings),
+        drawn.lines,
+        gap,
+        FACED if drawn.door_width is None else ENCLOSING,
+    ):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
