@@ -359,6 +359,15 @@ def test_a_frame_that_is_laid_over_a_wall_between_rooms_is_a_door(frame, joined)
     assert doors == ([{"bath", "hall"}] if joined else [])
 
 
+def test_a_door_that_is_drawn_shut_in_a_wall_of_two_faces_leads_from_jamb_to_jamb():
+    flat = tuple(box(*corners, pen=PEN) for corners in HATCHED)
+
+    (door,) = interpret(Sheet((*flat, box(49, 32, 51, 40, pen=PEN, fill=WHITE)))).sketch.doors
+
+    assert door.vertices[:, 0] == pytest.approx(50.0, abs=0.1)
+    assert sorted(door.vertices[:, 1]) == pytest.approx([32.0, 40.0], abs=0.1)
+
+
 def test_walls_of_two_faces_enclose_rooms_although_windows_with_two_leaves_stand_open():
     leaves = [
         mark
