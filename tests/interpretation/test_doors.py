@@ -359,6 +359,27 @@ def test_a_frame_that_is_laid_over_a_wall_between_rooms_is_a_door(frame, joined)
     assert doors == ([{"bath", "hall"}] if joined else [])
 
 
+def test_a_door_that_is_drawn_shut_in_a_wall_of_two_faces_leads_from_jamb_to_jamb():
+    flat = tuple(box(*corners, pen=PEN) for corners in HATCHED)
+
+    (door,) = interpret(Sheet((*flat, box(49, 32, 51, 40, pen=PEN, fill=WHITE)))).sketch.doors
+
+    assert door.vertices[:, 0] == pytest.approx(50.0, abs=0.1)
+    assert sorted(door.vertices[:, 1]) == pytest.approx([32.0, 40.0], abs=0.1)
+
+
+def test_walls_of_two_faces_enclose_rooms_although_windows_with_two_leaves_stand_open():
+    leaves = [
+        mark
+        for left in (10, 60)
+        for hinge, start in ((left, 0), (left + 28, 90))
+        for mark in (stroke((hinge, 3), (hinge, 17)), arc((hinge, 3), 14, start, start + 90))
+    ]
+    faces = [box(*corners, pen=PEN) for corners in ((0, 0, 100, 80), (3, 3, 48.5, 77), (51.5, 3, 97, 77))]
+
+    assert interpret(Sheet((*faces, *leaves))).sketch.solids
+
+
 PASSAGE = (box(0, 0, 100, 12, pen=PEN), stroke((50, 0), (50, 1)), stroke((50, 11), (50, 12)))
 IN_PASSAGE = (Text("bath", (25.0, 6.0), 2.0), Text("hall", (75.0, 6.0), 2.0))
 

@@ -5,7 +5,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pilotage.interpretation.pieces import joined, on_grid, straight, without_hatching, without_scribble
+from pilotage.interpretation.pieces import joined, on_grid, straight, without_scribble
 
 GRAIN = 1e-3
 
@@ -63,14 +63,3 @@ def test_of_a_scribble_one_piece_a_square_is_left() -> None:
     """Long pieces all stay."""
     ends = np.array([[[0.1, 0.1], [0.2, 0.2]], [[0.3, 0.1], [0.2, 0.1]], [[0.0, 0.0], [5.0, 0.0]]])
     assert without_scribble(ends, 1.0).tolist() == [ends[2].tolist(), ends[0].tolist()]
-
-
-def test_hatching_between_two_faces_is_left_out() -> None:
-    """What stands on one face alone stays, and what is longer than a wall is thick."""
-    faces = [[(0.0, 0.0), (9.0, 0.0)], [(0.0, 1.0), (9.0, 1.0)]]
-    hatching = [[(x, 0.0), (x + 1.0, 1.0)] for x in (1.0, 2.0, 3.0)]
-    others = [[(5.0, 0.0), (5.0, 0.5)], [(9.0, 0.0), (9.0, 3.0)]]
-    left = without_hatching(np.array(faces + hatching + others), 1.5, 0.01)
-    assert sorted(map(str, left.tolist())) == sorted(
-        str(np.array(piece).tolist()) for piece in faces + others
-    )

@@ -74,6 +74,16 @@ def test_ink_in_the_color_of_the_ground_is_not_seen():
     assert are_joined((hidden, *WITH_GAP))
 
 
+def test_a_room_is_called_by_the_largest_of_its_words():
+    texts = (
+        Text("Sofa", (25.0, 20.0), 2.0),
+        Text("Living", (25.0, 60.0), 3.0),
+        Text("hall", (75.0, 40.0), 2.0),
+    )
+
+    assert {"living", "hall"} == {cell.cell_id for cell in graph_of(WITH_GAP, texts).cells}
+
+
 def test_rows_of_small_round_shapes_are_letters_and_one_alone_is_not():
     word = [letter(x) for x in (20.0, 22.5, 25.0, 27.5)]
 

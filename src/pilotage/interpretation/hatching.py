@@ -68,6 +68,8 @@ def laid_over(
     found = []
     for part in parts_of(shapely.union_all(frames)):
         corners = shapely.get_coordinates(shapely.oriented_envelope(part))
+        if len(corners) != 5:
+            continue
         sides = np.diff(corners, axis=0)[:2]
         sides = sides[np.argsort(-np.hypot(*sides.T))]
         length, width = np.hypot(*sides.T)

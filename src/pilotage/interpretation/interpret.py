@@ -21,7 +21,7 @@ from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.view import View, view_of
-from pilotage.interpretation.walls import Walls, rings_of
+from pilotage.interpretation.walls import Walls, opened_shut, rings_of
 from pilotage.interpretation.words import find_names, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
@@ -106,6 +106,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
             *opened_bars(parts.bars),
             *opened_halves(parts.halves),
             *opened_dashed(sheet, sorted(parts.dashed)),
+            *opened_shut(parts.walls.shut),
         ),
         openings=sheet.openings,
     )

@@ -62,17 +62,3 @@ def without_scribble(ends: Array, step: float) -> Array:
     squares = np.floor(ends[short].mean(axis=1) / step)
     _, first = np.unique(squares, axis=0, return_index=True)
     return np.concatenate([ends[~short], ends[short][np.sort(first)]])
-
-
-def without_hatching(ends: Array, thickness: float, grain: float) -> Array:
-    """Leave out pieces (n, 2, 2) shorter than a thickness that lead from longer ones to longer ones.
-
-    No point of them lies farther than half a thickness from a longer piece: what closes the gaps between
-    longer pieces covers them.
-    """
-    short = np.hypot(*(ends[:, 1] - ends[:, 0]).T) < thickness
-    tree = shapely.STRtree(shapely.linestrings(ends[~short]))
-    tips = shapely.points(ends[short].reshape(-1, 2))
-    touching = np.zeros(len(tips), dtype=bool)
-    touching[tree.query(tips, predicate="dwithin", distance=grain)[0]] = True
-    return np.concatenate([ends[~short], ends[short][~touching.reshape(-1, 2).all(axis=1)]])

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 
+from pilotage.geometry import Polyline
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.floors import floor_edges
 from pilotage.interpretation.hatching import shut_doors
@@ -78,6 +79,7 @@ class Walls:
     solid: shapely.Geometry  # walls that have a thickness
     lines: shapely.Geometry | None  # thin walls beside them; None: every line that is left is a wall
     colors: frozenset[Color]  # in which walls are painted
+    shut: shapely.Geometry = NOTHING  # openings that are drawn shut
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,13 +226,18 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         return None
     filled = filled_between(drawn.lines, drawn.solid, thickness)
     walls = without_crumbs(shapely.difference(filled, drawn.openings), thickness)
-    if not are_walls(walls, drawn.lines, gap, FACED if drawn.door_width is None else ENCLOSING):
+    if not are_walls(
+        shapely.union(walls, drawn.openings),
+        drawn.lines,
+        gap,
+        FACED if drawn.door_width is None else ENCLOSING,
+    ):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
-    shut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
-    drawn = replace(drawn, main=shapely.difference(drawn.main, shut))
-    walls = shapely.difference(walls, shut)
-    return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)
+    cut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
+    drawn = replace(drawn, main=shapely.difference(drawn.main, cut))
+    walls = shapely.difference(walls, cut)
+    return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors, shut)
 
 
 def black_lines(drawn: Drawn) -> Walls | None:
@@ -273,6 +280,18 @@ def black_lines(drawn: Drawn) -> Walls | None:
     )
     long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
+
+
+def opened_shut(shut: shapely.Geometry) -> tuple[Polyline, ...]:
+    """Return the openings that are drawn shut, from jamb to jamb."""
+    boxes = [shapely.get_coordinates(shapely.oriented_envelope(part)) for part in parts_of(shut)]
+    doors = []
+    for box in boxes:
+        if len(box) == 5:
+            middles = (box[:-1] + box[1:]) / 2.0  # of the sides
+            across = np.hypot(*(middles[:2] - middles[2:]).T)
+            doors.append(Polyline(middles[0::2] if across[0] > across[1] else middles[1::2]))
+    return tuple(doors)
 
 
 def rings_of(solid: shapely.Geometry) -> list[shapely.LinearRing]:

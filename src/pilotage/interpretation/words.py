@@ -93,7 +93,10 @@ def role_of_words(words: str) -> tuple[Role, str]:
 
 
 def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
-    """Join the lines of each name, the upper first; words without a letter, and measures, are left out."""
+    """Join the lines of each name, the upper first; words without a letter, and measures, are left out.
+
+    What is written larger comes first: of the words in a room its name is, and not that of its furniture.
+    """
     kept = [
         (n, text)
         for n, text in texts
@@ -120,7 +123,8 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
         names.append(
             Name(" ".join(line.text for line in lines), (x, y), tuple(kept[place][0] for place in chain))
         )
-    return names
+    heights = {number: text.height for number, text in kept}
+    return sorted(names, key=lambda name: -max(heights[number] for number in name.members))
 
 
 def near_lines(texts: Sequence[Text]) -> list[list[int]]:
