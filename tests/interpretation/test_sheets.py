@@ -153,6 +153,16 @@ def test_the_innermost_name_tells_the_role_and_a_hint_wins_over_all():
     assert said.sketch.goal is None
 
 
+def test_rooms_may_be_called_by_what_stands_in_them():
+    pen = Pen(BLACK, 1.0)
+    bedroom = box(0, 0, 50, 80, pen=pen, names=("mattress bed",))
+    kitchen = box(50, 0, 100, 80, pen=pen, names=("oven sink",))
+    bed = box(5, 5, 20, 30, pen=pen, names=("bed",))
+
+    assert [one.role for one in meanings([bedroom, kitchen])] == [Role.WALL, Role.WALL]
+    assert meanings([*WITH_GAP, bed])[-1].role is Role.FURNITURE
+
+
 def test_marks_and_texts_named_start_and_goal_are_where_they_stand():
     start = box(10, 10, 14, 14, fill=BLACK, names=("start",))
     goal = Text("X", (80.0, 40.0), 3.0, names=("goal",))
