@@ -20,7 +20,8 @@ SVG = """<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" xmlns:xlin
 <use xlink:href="#door" x="50" y="20"/><rect id="goal" x="120" y="20" width="4" height="4" rx="1"/>
 <circle class="start" cx="20" cy="30" r="2"/><ellipse cx="70" cy="20" rx="4" ry="2"/>
 <text x="20" y="20" font-size="5">off<tspan dy="6">ice</tspan></text>
-<g class="furniture"><polygon points="60,10 70,10 70,15"/></g></svg>"""
+<clipPath id="cut"><rect width="65" height="40"/></clipPath>
+<g class="furniture" clip-path="url(#cut)"><polygon points="60,10 70,10 70,15"/></g></svg>"""
 
 WORLD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 15 5"><g fill="none" stroke="black">
 <rect width="15" height="5"/><line class="door" data-closed="10-40" x1="5" y1="0" x2="5" y2="1"/>
