@@ -15,9 +15,6 @@ from pilotage.interpretation.sheet import Role, Sheet
 CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
 
-STROKE = (Role.WALL, "a stroke")
-"""What a mark without a name may be."""
-
 AROUND = 0.5
 """Walls stand around furniture: they reach over at least this share of the drawing's diagonal."""
 
@@ -59,14 +56,18 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     called = {number: guessed_role(names) for number, names in names_inside(sheet, drawn).items()}
+    walls = [number for number in drawn if number not in letters and is_wall(called[number])]
+    if diagonal_of(sheet, walls) < AROUND * diagonal:  # rooms are called by what stands in them
+        called = {number: role if role and role[0] in CLOSING else None for number, role in called.items()}
     guessed = {
         mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
     }
-    walls = [mark.number for mark in visible if guessed.get(mark.number, STROKE)[0] is Role.WALL]
-    if diagonal_of(sheet, walls) < AROUND * diagonal:  # rooms are called by what stands in them
-        called = {number: role if role and role[0] in CLOSING else None for number, role in called.items()}
-        guessed = {number: role for number, role in guessed.items() if role[0] in CLOSING}
     return View(sheet, told, closing, guessed, paper, drawn, letters, called, visible, diagonal)
+
+
+def is_wall(named: tuple[Role, str] | None) -> bool:
+    """Tell whether a mark may be a wall by its name; what has none may."""
+    return named is None or named[0] is Role.WALL
 
 
 def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
