@@ -63,6 +63,7 @@ def measure(arguments: argparse.Namespace) -> Figures:
         print(f"ready after {figures['ready_s']:.2f} s")
         figures["cells_s"] = time_cells(server)
         figures |= watch_one(server, arguments.seconds / 3.0)
+        server.end_drives()
         figures["load"] = load(server, arguments.drives, arguments.seconds)
     figures["browser"] = look(arguments.seconds / 3.0)
     figures["build_mb"] = zipped_size() / 1e6
