@@ -56,18 +56,18 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     called = {number: guessed_role(names) for number, names in names_inside(sheet, drawn).items()}
-    walls = [number for number in drawn if number not in letters and is_wall(called[number])]
-    if diagonal_of(sheet, walls) < AROUND * diagonal:  # rooms are called by what stands in them
-        called = {number: role if role and role[0] in CLOSING else None for number, role in called.items()}
+    others = [number for number in drawn if number not in letters and not is_furniture(called[number])]
+    if diagonal_of(sheet, others) < AROUND * diagonal:  # rooms are called by what stands in them
+        called = {number: None if is_furniture(role) else role for number, role in called.items()}
     guessed = {
         mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
     }
     return View(sheet, told, closing, guessed, paper, drawn, letters, called, visible, diagonal)
 
 
-def is_wall(named: tuple[Role, str] | None) -> bool:
-    """Tell whether a mark may be a wall by its name; what has none may."""
-    return named is None or named[0] is Role.WALL
+def is_furniture(named: tuple[Role, str] | None) -> bool:
+    """Tell whether a mark has a name of furniture."""
+    return named is not None and named[0] is Role.FURNITURE
 
 
 def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
