@@ -139,7 +139,7 @@ def round_length(length: float) -> float:
 
 
 def show_literally(text: Text) -> None:
-    """Replace what no font can show: names of files may hold bytes that are not letters."""
+    """Replace what no font can show, such as bytes of a file's name; other scripts may use all fonts."""
     words = text.get_text().encode(errors="replace").decode()
     text.set_text(words)
     if not words.isascii():

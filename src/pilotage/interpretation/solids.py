@@ -159,27 +159,24 @@ def paired_distance(ends: Array, diagonal: float) -> float | None:
 
 
 def filled_between(lines: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
-    """Fill what lies between lines and solids no farther apart than a wall is thick, by closing."""
+    """Fill what lies between lines and solids no farther apart than a wall is thick, by closing.
+
+    Short lines that this covers without them are hatching; their square ends would make teeth.
+    """
     hair = HAIR * thickness
     pieces = shapely.linestrings(without_scribble(joined(straight(lines), FINE * hair), SCRIBBLE * thickness))
-    long = shapely.length(pieces) >= thickness
-    closed = closed_between(pieces[long], solid, thickness)
-    shapely.prepare(closed)
-    hatching = ~long & shapely.covers(closed, pieces)
-    if not (long | hatching).all():
-        closed = closed_between(pieces[~hatching], solid, thickness)
-    opened = shapely.buffer(shapely.buffer(closed, -2.0 * hair, join_style="mitre"), hair, join_style="mitre")
-    return shapely.simplify(shapely.union(opened, solid), hair)
-
-
-def closed_between(
-    pieces: NDArray[np.object_], solid: shapely.Geometry, thickness: float
-) -> shapely.Geometry:
-    """Close the gaps between straight lines and solids that are no wider than a wall is thick."""
     bars = shapely.buffer(pieces, thickness / 2.0, cap_style="square")
     grown = shapely.buffer(solid, thickness / 2.0, join_style="mitre")
-    both = shapely.union_all([*bars, grown])
-    return shapely.buffer(both, HAIR * thickness - thickness / 2.0, join_style="mitre")
+    long = shapely.length(pieces) >= thickness
+    both = shapely.union_all([*bars[long], grown])
+    closed = shapely.buffer(both, hair - thickness / 2.0, join_style="mitre")
+    shapely.prepare(closed)
+    short = ~long & ~shapely.covers(closed, pieces)
+    if short.any():
+        both = shapely.union_all([*bars[short], both])
+        closed = shapely.buffer(both, hair - thickness / 2.0, join_style="mitre")
+    opened = shapely.buffer(shapely.buffer(closed, -2.0 * hair, join_style="mitre"), hair, join_style="mitre")
+    return shapely.simplify(shapely.union(opened, solid), hair)
 
 
 def without_crumbs(solid: shapely.Geometry, thickness: float) -> shapely.Geometry:

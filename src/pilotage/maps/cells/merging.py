@@ -37,7 +37,7 @@ WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
 
 DIGITS = 3
-"""Openings that separate as much up to so many digits are alike."""
+"""Openings whose separations agree in so many decimals are alike: else rounding errors would decide."""
 
 
 class Regions:
@@ -69,11 +69,11 @@ class Regions:
             self.chords_to[second].setdefault(first, []).append(int(chord))
 
     def strength(self, first: int, second: int, total: float, min_area: float) -> tuple[float, float]:
-        """Tell how much the openings between two regions separate them; below 1 they are merged (4.1).
+        """Tell how much the openings between two regions separate them, and which of equals are weaker (4.1).
 
-        What is too small is merged in any case, first with that to which it is most open; the second number
-        tells to which. So what lies before a door goes to the corridor. Only through a door that the file
-        tells nothing is merged but the space between two outlines of one wall.
+        Where the first number is below 1 they are merged. What is too small is merged in any case, first with
+        that to which it is most open: what lies before a door goes to the corridor. Only through a door that
+        the file tells nothing is merged but the space between two outlines of one wall.
         """
         smaller, least = min(self.areas[first], self.areas[second]), min_area * total
         chords = self.chords_to[first][second]
@@ -82,9 +82,8 @@ class Regions:
             if smaller > WITHIN_WALL * width**2:
                 return np.inf, np.inf
         separation = self.separation(first, second, smaller)
-        if smaller < least and not (self.named[first] and self.named[second]):
-            return min(separation, smaller / least), round(separation, DIGITS)
-        return separation, separation
+        is_small = smaller < least and not (self.named[first] and self.named[second])
+        return min(separation, smaller / least) if is_small else separation, round(separation, DIGITS)
 
     def separation(self, first: int, second: int, smaller: float) -> float:
         """Tell how much openings separate two regions, of which the smaller has this area."""
