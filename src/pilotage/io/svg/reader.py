@@ -8,53 +8,29 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
-import shapely
 import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.interpretation.paper import holds
-from pilotage.io.clip import Clip, area_of
+from pilotage.io.clip import Clip
 from pilotage.io.files import check_regular, read_bytes
+from pilotage.io.svg.clips import ROUNDING, Clips
 from pilotage.io.svg.flatten import flatten
+from pilotage.io.svg.outlines import FLATNESS, Bounds, bounds_of, outline_of
 from pilotage.io.svg.style import local_name
-from pilotage.io.svg.tree import ClipUse, Document, Drawn
+from pilotage.io.svg.tree import Document, Drawn
 from pilotage.io.svg.viewport import Viewport
-
-FLATNESS = 0.0005
-"""How far a chord may stray from its curve, as a share of the drawing's diagonal: 2 cm in a 40 m building."""
 
 WHITE = svgelements.Color("white")
 
-ROUNDING = 1e-6
-"""Relative error that transforms may leave in an area."""
-
 WORDED = ("text", "foreignObject")
-
-SHAPES = {
-    "path": svgelements.Path,
-    "rect": svgelements.Rect,
-    "circle": svgelements.Circle,
-    "ellipse": svgelements.Ellipse,
-    "line": svgelements.SimpleLine,
-    "polyline": svgelements.Polyline,
-    "polygon": svgelements.Polygon,
-}
-
-SIZES = {
-    svgelements.Rect: ("width", "height"),
-    svgelements.Circle: ("r",),
-    svgelements.Ellipse: ("rx", "ry"),
-}
-"""Measures that must be positive for anything to be seen."""
 
 FARTHEST = 1e9
 """Largest coordinate that is accepted: beyond it, areas and lengths lose their digits or overflow."""
 
 SCALE = "data-metres-per-unit"
 """Attribute of the root: metres in a unit of its viewBox."""
-
-Bounds = tuple[float, float, float, float]  # left, top, right, bottom
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,46 +108,6 @@ def read_document(path: Path) -> ET.Element:
     return root
 
 
-class Clips:
-    """The areas to which a document cuts what it draws; each is found once."""
-
-    def __init__(self, document: Document) -> None:
-        """Begin with none."""
-        page = document.page
-        self.page = None if page is None else shapely.box(*page.bounds)
-        self.document = document
-        self.areas: dict[tuple[str, str], shapely.Geometry | None] = {}
-        self.clips: dict[tuple[tuple[str, str], ...], Clip | None] = {}
-
-    def clip_of(self, item: Drawn) -> Clip | None:
-        """Return what is left of a shape by all that cuts it; None if nothing does."""
-        key = tuple((name, str(matrix)) for name, matrix in item.clips)
-        if key not in self.clips:
-            found = [area for use in item.clips if (area := self.area_of(use)) is not None]
-            self.clips[key] = Clip(shapely.intersection_all(found)) if found else None
-        return self.clips[key]
-
-    def area_of(self, use: ClipUse) -> shapely.Geometry | None:
-        """Return the area of a `clipPath`; None if it has no shape that can be read, or is the page.
-
-        What is drawn beside the page is read as well, for pages are often too small.
-        """
-        key = (use[0], str(use[1]))
-        if key not in self.areas:
-            outlines = [outline for item in self.document.walk_clip(use) for outline in outline_of(item)]
-            area = shapely.union_all([enclosed_by(outline) for outline in outlines])
-            is_page = self.page is not None and area.buffer(ROUNDING * self.page.length).covers(self.page)
-            self.areas[key] = None if not outlines or is_page else area
-        return self.areas[key]
-
-
-def enclosed_by(outline: svgelements.Path) -> shapely.Geometry:
-    """Return the area that an outline encloses."""
-    left, top, right, bottom = bounds_of(outline)
-    tolerance = FLATNESS * math.hypot(right - left, bottom - top)
-    return area_of([line.vertices for line in flatten(outline, tolerance)] if tolerance > 0.0 else [])
-
-
 def read_shape(item: Drawn, clips: Clips) -> Iterator[Shape]:
     """Carry a shape to the root's coordinates; texts, and shapes of which nothing is seen, give none."""
     if not (item.style.stroked or item.style.filled):
@@ -185,45 +121,6 @@ def read_shape(item: Drawn, clips: Clips) -> Iterator[Shape]:
             yield Shape(item, outline, bounds)
         elif (seen := clip.cut_box(bounds)) is not None:
             yield Shape(item, outline, seen, clip)
-
-
-def outline_of(item: Drawn) -> Iterator[svgelements.Path]:
-    """Carry the outline of a shape to the root's coordinates; texts, and shapes of no size, give none."""
-    kind = SHAPES.get(local_name(item.element.tag))
-    if kind is None:
-        return
-    measures = dict(item.measures)
-    measures.pop("transform", None)
-    if any(float(measures.get(name, "0")) <= 0.0 for name in SIZES.get(kind, ())):
-        return
-    if kind is svgelements.Path:
-        outline = svgelements.Path(measures.get("d", ""))
-    else:
-        shape = kind(measures)
-        if shape.is_degenerate():
-            return
-        outline = svgelements.Path(shape)
-    outline = (outline * item.page_from_element).reify()
-    if len(outline) >= 2:
-        yield outline
-
-
-def bounds_of(outline: svgelements.Path) -> Bounds:
-    """Return left, top, right and bottom of an outline; a curve within its ends' box needs no search."""
-    boxes = [box_of(segment) for segment in outline]
-    lefts, tops, rights, bottoms = zip(*boxes, strict=True)
-    return min(lefts), min(tops), max(rights), max(bottoms)
-
-
-def box_of(segment: svgelements.PathSegment) -> Bounds:
-    """Return left, top, right and bottom of a part of an outline."""
-    if isinstance(segment, svgelements.QuadraticBezier | svgelements.CubicBezier):
-        x, y = ([point[axis] for point in segment] for axis in (0, 1))
-        ends = min(x[0], x[-1]), min(y[0], y[-1]), max(x[0], x[-1]), max(y[0], y[-1])
-        if holds(ends, (min(x), min(y), max(x), max(y))):
-            return ends
-    box: Bounds = segment.bbox()
-    return box
 
 
 def without_background(walls: Sequence[Shape], page: Viewport | None) -> list[Shape]:

@@ -11,7 +11,8 @@ from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
-from pilotage.io.svg.reader import FLATNESS, Shape, diagonal_of, flipped, read_content, reading_values
+from pilotage.io.svg.outlines import FLATNESS
+from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
 from pilotage.io.svg.style import leading_number, local_name
 from pilotage.io.svg.texts import read_texts
