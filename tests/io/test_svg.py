@@ -343,6 +343,27 @@ def test_texts_name_rooms_at_their_middle(tmp_path):
     ).labels
 
 
+def test_flowed_text_of_inkscape_names_rooms_from_the_top_of_its_region_on(tmp_path):
+    region = '<flowRegion><rect x="10" y="20" width="80" height="60"/></flowRegion>'
+    left = f'<flowRoot font-size="10">{region}<flowPara>Hall</flowPara><flowPara>east</flowPara></flowRoot>'
+    middle = f'<flowRoot font-size="10" text-anchor="middle">{region}<flowPara>Hall</flowPara></flowRoot>'
+    nowhere = "<flowRoot><flowPara>Hall</flowPara></flowRoot>"
+    label = drawing(tmp_path, LINE + middle).labels[0]
+
+    assert ["Hall east"] == [one.text for one in drawing(tmp_path, LINE + left).labels]
+    assert ("Hall", (50.0, -25.0)) == (label.text, label.position)
+    assert () == drawing(tmp_path, LINE + nowhere).labels
+    assert 1 == len(drawing(tmp_path, LINE + left).strokes)
+
+
+def test_html_in_a_drawing_names_rooms_at_the_middle_of_its_box(tmp_path):
+    html = '<div xmlns="http://www.w3.org/1999/xhtml"><p>Living</p><p>room</p></div>'
+    foreign = f'<foreignObject x="10" y="20" width="80" height="60" font-size="10">{html}</foreignObject>'
+    label = drawing(tmp_path, LINE + foreign).labels[0]
+
+    assert ("Living room", (50.0, -50.0)) == (label.text, label.position)
+
+
 def test_start_and_goal_are_the_centers_of_what_is_so_named(tmp_path):
     body = (
         LINE + '<circle id="start" cx="10" cy="20" r="3"/>'

@@ -19,12 +19,10 @@ from pilotage.io.svg.clips import ROUNDING, Clips
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.outlines import FLATNESS, Bounds, bounds_of, outline_of
 from pilotage.io.svg.style import local_name
-from pilotage.io.svg.tree import Document, Drawn
+from pilotage.io.svg.tree import WORDED, Document, Drawn
 from pilotage.io.svg.viewport import Viewport
 
 WHITE = svgelements.Color("white")
-
-WORDED = ("text", "foreignObject")
 
 FARTHEST = 1e9
 """Largest coordinate that is accepted: beyond it, areas and lengths lose their digits or overflow."""

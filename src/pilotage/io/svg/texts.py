@@ -10,14 +10,14 @@ import numpy as np
 
 from pilotage.interpretation import Text
 from pilotage.io.svg.reader import FARTHEST, apply
-from pilotage.io.svg.style import declarations, is_named, leading_number
+from pilotage.io.svg.style import declarations, is_named, leading_number, local_name
 from pilotage.io.svg.tree import Drawn
 
 GLYPH_WIDTH = 0.5
 """Mean width of a letter in font sizes: good enough to find the middle of a word."""
 
 LINE_HEIGHT = 1.2
-"""Distance of lines of text in a foreign object, in font sizes."""
+"""Distance of lines of text in a foreign object or a flowed text, in font sizes."""
 
 BLOCKS = ("div", "p", "br", "li", "h1", "h2", "h3", "tr")
 """Elements of HTML that begin a line."""
@@ -40,8 +40,8 @@ class Line:
 
 
 def read_texts(item: Drawn) -> Iterator[Text]:
-    """Read the lines of a text or a foreign object, y up."""
-    lines = foreign_lines(item) if is_named(item.element, "foreignObject") else text_lines(item)
+    """Read the lines of a text, a flowed text or a foreign object, y up."""
+    lines = READERS[local_name(item.element.tag)](item)
     matrix = item.page_from_element
     angle = math.atan2(-matrix.b, matrix.a)
     stretch = math.sqrt(abs(matrix.a * matrix.d - matrix.b * matrix.c))
@@ -105,6 +105,29 @@ def shift_of(part: Element, size: float) -> float:
     return shift * size if written.strip().endswith("em") else shift
 
 
+def flowed_lines(item: Drawn) -> Iterator[Line]:
+    """Read the paragraphs of a flowed text of Inkscape, each a line, from the top of its region on.
+
+    Flowed text was planned for SVG 1.2 and came into no standard; browsers do not show it.
+    """
+    regions = [part for part in item.element.iter() if is_named(part, "rect")]
+    if not regions:
+        return
+    left, top, width = (leading_number(regions[0].get(name, ""), 0.0) for name in ("x", "y", "width"))
+    size = leading_number(item.style.values["font-size"], 16.0)
+    for part in item.element.iter():
+        if not is_named(part, "flowPara"):
+            continue
+        own = declarations(part.get("style", ""))
+        size = leading_number(own.get("font-size", ""), size)
+        align = own.get("text-anchor") or item.style.values["text-anchor"]
+        x, anchored = {"middle": (left + width / 2.0, 0.0), "end": (left + width, -0.5)}.get(
+            align, (left, 0.5)
+        )
+        yield Line(" ".join("".join(part.itertext()).split()), x, top + 0.5 * size, size, anchored)
+        top += LINE_HEIGHT * size
+
+
 def foreign_lines(item: Drawn) -> Iterator[Line]:
     """Read the lines of HTML inside a drawing, about the middle of their box."""
     element = item.element
@@ -136,3 +159,6 @@ def html_lines(element: Element) -> list[str]:
             lines.append("")
         lines[-1] += said
     return [" ".join(line.split()) for line in lines]
+
+
+READERS = {"text": text_lines, "flowRoot": flowed_lines, "foreignObject": foreign_lines}

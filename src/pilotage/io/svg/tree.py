@@ -13,7 +13,8 @@ from pilotage.io.svg.servers import REFERENCE, PaintServers
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
-DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "foreignObject")
+WORDED = ("text", "foreignObject", "flowRoot")
+DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", *WORDED)
 HOLDING = ("svg", "g", "a", "switch")
 LIST_END = re.compile(r"[\s,]")
 OUTLINED = "aria-label"
