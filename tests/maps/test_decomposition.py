@@ -82,6 +82,14 @@ def test_a_hall_and_the_corridor_that_opens_into_it_are_two_cells():
     assert 2 == len(decomposed(hall_and_corridor).cells)
 
 
+def test_a_hall_half_as_wide_again_as_what_opens_into_it_is_a_cell_only_where_doors_are_rare():
+    hall = [(0, 0), (6, 0), (6, 1), (20, 1), (20, 5), (6, 5), (6, 6), (0, 6)]
+    room = [(0, 5), (-10, 5), (-10, 0), (0, 0)]
+
+    assert 2 == len(decomposed([*hall, (0, 0)]).cells)
+    assert 2 == len(decomposed([*hall, (0, 3)], [(0, 2), (0, 0)], room).cells)
+
+
 def test_an_unclosed_corner_is_mended_and_a_door_is_not():
     ragged = [(0.05, 0), (10, 0), (10, 5), (0, 5), (0, 0.05)]
     graph = decomposed(ragged, [(5, 0.06), (5, 2)], [(5, 3), (5, 5.2)])

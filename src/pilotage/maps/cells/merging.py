@@ -5,8 +5,10 @@ An opening separates two cells if it narrows, has depth behind it, or stands bet
 
 import heapq
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+import rustworkx
 import shapely
 from numpy.typing import NDArray
 
@@ -19,6 +21,10 @@ sqrt(2) times as wide as they are, and that is none."""
 
 MOUTH, MOUTH_DEPTH = 1.8, 0.3
 """Or one side is this many times as wide, and the smaller side has this area, in squares over the opening."""
+
+FEW_DOORS = 1 / 8
+"""On an open floor a smaller share of all openings are doors, and of its area closed off. There it is a mouth
+if only one side is as much wider as both are at a door."""
 
 JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
 """Or free space widens this many times beside it, with a lower narrowing and this area: a wide door."""
@@ -49,9 +55,13 @@ class Regions:
         among: NDArray[np.bool_],
         named: NDArray[np.bool_],
         drawn: NDArray[np.bool_],
+        min_area: float,
         *,
+        mouth: float,
         solids_known: bool,
     ) -> None:
+        self.mouth = mouth
+        self.least = min_area * float(tessellation.areas[among].sum())
         self.reaches: list[float] = tessellation.reaches.tolist()
         self.areas: list[float] = tessellation.areas.tolist()
         self.widths: list[float] = tessellation.widths.tolist()
@@ -68,22 +78,46 @@ class Regions:
             self.chords_to[first].setdefault(second, []).append(int(chord))
             self.chords_to[second].setdefault(first, []).append(int(chord))
 
-    def strength(self, first: int, second: int, total: float, min_area: float) -> tuple[float, float]:
+    def merged(self) -> NDArray[np.int64]:
+        """Merge, the weakest opening first; return the region of each piece, (p,), -1 for the rest (4.1)."""
+        queue: list[tuple[float, float, int, int, int]] = []
+
+        def consider(first: int, second: int) -> None:
+            strength = self.strength(first, second)
+            if strength[0] < 1.0:
+                low, high = sorted((first, second))
+                heapq.heappush(queue, (*strength, low, high, self.age[low] + self.age[high]))
+
+        for first, others in enumerate(self.chords_to):
+            for second in others:
+                if first < second:
+                    consider(first, second)
+        while queue:
+            *_, first, second, age = heapq.heappop(queue)
+            ages = (self.age[first], self.age[second])
+            if min(ages) < 0 or sum(ages) != age:
+                continue
+            self.absorb(first, second)
+            for other in self.chords_to[first]:
+                consider(first, other)
+        return np.asarray(self.region_of, dtype=np.int64)
+
+    def strength(self, first: int, second: int) -> tuple[float, float]:
         """Tell how much the openings between two regions separate them, and which of equals are weaker (4.1).
 
         Where the first number is below 1 they are merged. What is too small is merged in any case, first with
         that to which it is most open: what lies before a door goes to the corridor. Only through a door that
         the file tells nothing is merged but the space between two outlines of one wall.
         """
-        smaller, least = min(self.areas[first], self.areas[second]), min_area * total
+        smaller = min(self.areas[first], self.areas[second])
         chords = self.chords_to[first][second]
         if all(self.told[chord] for chord in chords):
             width = max(self.widths[chord] for chord in chords)
             if smaller > WITHIN_WALL * width**2:
                 return np.inf, np.inf
         separation = self.separation(first, second, smaller)
-        is_small = smaller < least and not (self.named[first] and self.named[second])
-        return min(separation, smaller / least) if is_small else separation, round(separation, DIGITS)
+        is_small = smaller < self.least and not (self.named[first] and self.named[second])
+        return min(separation, smaller / self.least) if is_small else separation, round(separation, DIGITS)
 
     def separation(self, first: int, second: int, smaller: float) -> float:
         """Tell how much openings separate two regions, of which the smaller has this area."""
@@ -96,7 +130,7 @@ class Regions:
         jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
         return max(
             narrowing / NARROWING,
-            min(mouth / MOUTH, depth / MOUTH_DEPTH),
+            min(mouth / self.mouth, depth / MOUTH_DEPTH),
             min(jambs / JAMBS, narrowing / JAMBS_NARROWING, depth / JAMBS_DEPTH),
         )
 
@@ -159,32 +193,31 @@ def merge_pieces(
 
     `named` tells in which pieces (p,) a name stands: what is small is not merged into what has another name.
     `drawn` tells which chords (n,) are at doors that are drawn: these always separate.
-    Two doors beside each other are no wide opening if `solids_known`: else a hand may have broken the line.
+    Two doors beside each other are no wide opening if `solids_known`: else a hand may have broken the line,
+    and may also have drawn an open floor, with hardly a door.
     """
-    regions = Regions(tessellation, among, named, drawn, solids_known=solids_known)
-    total = float(tessellation.areas[among].sum())
-    queue: list[tuple[float, float, int, int, int]] = []
 
-    def consider(first: int, second: int) -> None:
-        strength = regions.strength(first, second, total, min_area)
-        if strength[0] < 1.0:
-            low, high = sorted((first, second))
-            age = regions.age[low] + regions.age[high]
-            heapq.heappush(queue, (*strength, low, high, age))
+    def regions(mouth: float) -> NDArray[np.int64]:
+        found = Regions(tessellation, among, named, drawn, min_area, mouth=mouth, solids_known=solids_known)
+        return found.merged()
 
-    for first in range(len(among)):
-        for second in regions.chords_to[first]:
-            if first < second:
-                consider(first, second)
-    while queue:
-        *_, first, second, age = heapq.heappop(queue)
-        ages = (regions.age[first], regions.age[second])
-        if min(ages) < 0 or sum(ages) != age:
-            continue
-        regions.absorb(first, second)
-        for other in regions.chords_to[first]:
-            consider(first, other)
-    return np.asarray(regions.region_of, dtype=np.int64)
+    if not solids_known:
+        finely = regions(NARROWING)
+        if is_open_floor(tessellation, finely, drawn):
+            return finely
+    return regions(MOUTH)
+
+
+def is_open_floor(tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]) -> bool:
+    """Tell whether rooms open to each other, with hardly a door."""
+    borders = borders_of(tessellation, regions, drawn)
+    areas = region_areas(tessellation, regions)
+    joined = rustworkx.PyGraph()
+    joined.add_nodes_from(range(len(areas)))
+    joined.add_edges_from_no_data([(first, second) for first, second in borders.sides.tolist()])
+    largest = max(float(areas[sorted(part)].sum()) for part in rustworkx.connected_components(joined))
+    hangs_together = largest > (1.0 - FEW_DOORS) * areas.sum()
+    return bool(hangs_together and np.count_nonzero(borders.is_door) < FEW_DOORS * len(borders.is_door))
 
 
 def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -216,13 +249,11 @@ def join_corridors(
     nowhere and stays what it is, and so does a wide room with a name. Two names are never joined; `named`
     tells in which pieces (p,) one stands, and `drawn` which chords (n,) are at doors that are drawn.
     """
-    reaches = np.zeros(len(regions))
-    np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
     has_name = np.zeros(len(regions), dtype=bool)
     has_name[regions[named & (regions >= 0)]] = True
-    borders, openings, has_drawn, jambs = borders_of(tessellation, regions, drawn)
-    narrow, wide = np.sort(reaches[borders], axis=1).T
-    is_door = ((narrow >= NARROWING * openings) & (jambs >= JAMBS)) | has_drawn
+    found = borders_of(tessellation, regions, drawn)
+    borders, openings, reaches, is_door = found.sides, found.openings, found.reaches, found.is_door
+    wide = reaches[borders].max(axis=1)
     if not is_door.any():
         return regions
     door = float(np.median(openings[is_door]))
@@ -240,23 +271,31 @@ def join_corridors(
     return np.where(regions >= 0, joined[regions], -1)
 
 
-def borders_of(
-    tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]
-) -> tuple[NDArray[np.int64], Array, NDArray[np.bool_], Array]:
-    """List the pairs of regions with openings between them, (n, 2), and how wide the widest is, (n,).
+@dataclass(frozen=True, eq=False)
+class Borders:
+    """The pairs of regions with openings between them."""
 
-    Tell also whether all openings of a pair are doors that are drawn, (n,), and how far free space widens
-    beside the one that most does, in its widths, (n,).
-    """
+    sides: NDArray[np.int64]  # (n, 2)
+    openings: Array  # (n,) how wide the widest of each is
+    is_door: NDArray[np.bool_]  # (n,) whether doors are drawn in all, or both sides narrow to jambs
+    reaches: Array  # how wide each region is, indexed by its number
+
+
+def borders_of(tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]) -> Borders:
+    """List the pairs of regions with openings between them."""
+    reaches = np.zeros(len(regions))
+    np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
     sides = regions[tessellation.sides]
     between = (sides >= 0).all(axis=1) & (sides[:, 0] != sides[:, 1])
-    borders, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
-    openings, jambs = np.zeros(len(borders)), np.zeros(len(borders))
+    pairs, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
+    openings, jambs = np.zeros(len(pairs)), np.zeros(len(pairs))
     np.maximum.at(openings, owner.ravel(), tessellation.widths[between])
-    others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(borders))
+    others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(pairs))
     widening = np.maximum(tessellation.jambs, tessellation.behind)[between]
-    np.maximum.at(jambs, owner.ravel(), widening)
-    return borders, openings, others == 0, jambs
+    np.maximum.at(jambs, owner.ravel(), widening)  # how far free space widens beside an opening
+    narrow = reaches[pairs].min(axis=1)
+    is_door = ((narrow >= NARROWING * openings) & (jambs >= JAMBS)) | (others == 0)
+    return Borders(pairs, openings, is_door, reaches)
 
 
 def drop_small(
