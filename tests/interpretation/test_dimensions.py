@@ -1,6 +1,7 @@
 """Dimension lines part no room, and walls are none."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -62,3 +63,28 @@ def test_walls_with_a_number_beside_them_are_walls(lines, number):
     marks = (*WITH_GAP, stroke((0, 20), (50, 20)), *lines)
 
     assert Role.WALL is roles(marks, (number,))[len(WITH_GAP)]
+
+
+def test_a_mark_may_hold_all_signs_of_a_dimension_line_or_the_line_with_them():
+    line, signs = stroke((0, 20), (50, 20), width=0.2), ticks((0, 20), (50, 20))
+    both = replace(signs[0], outlines=tuple(sign.outlines[0] for sign in signs))
+    whole = replace(line, outlines=(*line.outlines, *both.outlines))
+    number = Text("≈4.40*", (25, 22), height=2.0)
+
+    assert [Role.IGNORE] * 2 == roles((*WITH_GAP, line, both), (number,))[len(WITH_GAP) :]
+    assert [Role.IGNORE] == roles((*WITH_GAP, whole), (number,))[len(WITH_GAP) :]
+
+
+@pytest.mark.parametrize(
+    ("width", "number", "is_dimension"),
+    [
+        (0.2, Text("4.40 m", (25, 22), height=2.0), True),
+        (0.2, Text("4.40 m", (15, 22), height=2.0), False),  # not before the middle
+        (0.2, Text("4.40", (25, 22), height=2.0), False),  # a number of anything
+        (1.0, Text("4.40 m", (25, 22), height=2.0), False),  # a wall that was measured
+    ],
+)
+def test_a_thin_line_with_a_length_before_its_middle_needs_no_signs(width, number, is_dimension):
+    marks = (*WITH_GAP, stroke((0, 20), (50, 20), width=width))
+
+    assert is_dimension is (Role.IGNORE in roles(marks, (number,))[len(WITH_GAP) :])

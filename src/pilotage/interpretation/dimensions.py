@@ -2,7 +2,9 @@
 
 import math
 import re
-from collections.abc import Container, Sequence
+from collections import Counter
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -10,7 +12,6 @@ import shapely
 from pilotage.geometry import Array
 from pilotage.interpretation.leaves import is_straight
 from pilotage.interpretation.paint import Seen
-from pilotage.interpretation.paper import bounds_of
 from pilotage.interpretation.sheet import Mark, Sheet, Text
 from pilotage.interpretation.words import is_measure
 
@@ -32,66 +33,97 @@ HEIGHT = 0.01
 TURNED = math.sin(math.radians(5.0))
 """It reads along the line, within this angle."""
 
-NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+THIN = 0.5
+"""A line without signs at its ends is no wall if its pen has at most this share of the width of the heaviest
+and a length with its unit stands before its middle: lengths are also written along walls."""
+
+AMID = 0.03
+"""So far from the middle of the line at most, as a share of its length."""
+
+NUMBER = re.compile(r"[≈~]?\d+(?:[.,]\d+)?\*?")
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """An outline of a mark that may be a dimension line, or a sign at its end."""
+
+    mark: int  # number of its mark
+    place: int  # among the outlines of its mark
+    vertices: Array  # (n, 2)
+    pen: float  # width of its line; 0 without one
+
+    @property
+    def key(self) -> tuple[int, int]:
+        """Tell it from all others."""
+        return self.mark, self.place
 
 
 def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], diagonal: float) -> set[int]:
-    """Find the marks without a name, by number, that are dimension lines, and the signs at their ends."""
+    """Find the marks without a name, by number, that are dimension lines, and the signs at their ends.
+
+    A mark may hold several: both arrowheads of a line, or the line with its ticks.
+    """
     texts = [text for text in sheet.texts if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)]
     if not texts:
         return set()
-    unnamed = [mark for mark in seen if mark.number not in named]
-    signs = [
-        (mark.number, extent, tip)
-        for mark in unnamed
-        if (extent := extent_of(sheet.marks[mark.number])) <= SIGN * diagonal
-        for tip in tips_of(sheet.marks[mark.number])
+    outlines = [
+        outline
+        for mark in seen
+        if mark.number not in named
+        for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
-    lines = measured_lines(sheet, unnamed, texts, diagonal)
-    if not signs or not lines:
-        return set()
-    tree = shapely.STRtree(shapely.points([tip for *_, tip in signs]))
-    found: set[int] = set()
-    for number, ends in lines:
+    extents = [float(np.ptp(outline.vertices, axis=0).max()) for outline in outlines]
+    signs = [
+        (outline.key, extent, tip)
+        for outline, extent in zip(outlines, extents, strict=True)
+        if extent <= SIGN * diagonal
+        for tip in tips_of(outline.vertices)
+    ]
+    found: set[tuple[int, int]] = set()
+    tree = shapely.STRtree(shapely.points([tip for *_, tip in signs])) if signs else shapely.STRtree([])
+    heavy = max((outline.pen for outline in outlines), default=0.0)
+    for line, text in measured_lines(outlines, texts, diagonal):
+        ends = line.vertices[[0, -1]]
         most = SHORT * float(np.hypot(*(ends[1] - ends[0])))
         near = tree.query(shapely.points(ends), predicate="dwithin", distance=AT * diagonal).T.tolist()
         small = [(end, signs[place][0]) for end, place in near if signs[place][1] <= most]
         if {end for end, _ in small} == {0, 1}:
-            found |= {number, *(sign for _, sign in small)}
-    return found
+            found |= {line.key, *(sign for _, sign in small)}
+        elif line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
+            found.add(line.key)
+    counts = Counter(number for number, _ in found)
+    return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
+
+
+def outlines_of(number: int, mark: Mark) -> Iterator[Outline]:
+    """List the outlines of a mark."""
+    for place, line in enumerate(mark.outlines):
+        yield Outline(number, place, line.vertices, 0.0 if mark.pen is None else mark.pen.width)
 
 
 def measured_lines(
-    sheet: Sheet, marks: Sequence[Seen], texts: Sequence[Text], diagonal: float
-) -> list[tuple[int, Array]]:
-    """List the straight lines along which one of these numbers stands: mark and ends (2, 2) of each."""
-    lines = [(mark.number, ends) for mark in marks if (ends := ends_of(sheet.marks[mark.number])) is not None]
+    outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float
+) -> list[tuple[Outline, Text]]:
+    """List the straight lines along which one of these numbers stands, each with the first of its numbers."""
+    lines = [one for one in outlines if one.pen > 0.0 and (one.vertices[0] != one.vertices[-1]).any()]
     if not lines:
         return []
     written = shapely.STRtree(shapely.points([text.position for text in texts]))
     reach = BESIDE * max(height_of(text, diagonal) for text in texts)
-    drawn = shapely.linestrings(np.array([ends for _, ends in lines]))
+    drawn = shapely.linestrings(np.array([line.vertices[[0, -1]] for line in lines]))
     beside = written.query(drawn, predicate="dwithin", distance=reach).T.tolist()
-    along = {rank for rank, place in beside if stands_along(texts[place], lines[rank][1], diagonal)}
-    return [
-        lines[rank] for rank in sorted(along) if is_straight(sheet.marks[lines[rank][0]].outlines[0].vertices)
-    ]
+    along: dict[int, Text] = {}
+    for rank, place in sorted(beside):
+        if stands_along(texts[place], lines[rank].vertices[[0, -1]], diagonal):
+            along.setdefault(rank, texts[place])
+    return [(lines[rank], text) for rank, text in along.items() if is_straight(lines[rank].vertices)]
 
 
-def extent_of(mark: Mark) -> float:
-    """Return the longer side of a mark's bounds."""
-    left, bottom, right, top = bounds_of(mark)
-    return max(right - left, top - bottom)
-
-
-def tips_of(mark: Mark) -> list[Array]:
-    """List where a small mark can end a dimension line: the middle of a tick, the corners of an arrowhead.
+def tips_of(points: Array) -> list[Array]:
+    """List where a small outline (n, 2) can end a line: amid a tick, at the corners of an arrowhead.
 
     The jamb of a door begins where the face of its wall ends, and a column has four corners.
     """
-    if len(mark.outlines) != 1:
-        return []
-    points = mark.outlines[0].vertices
     if len(points) > 3 and not (points[0] != points[-1]).any():
         points = points[:-1]
     if len(points) == 2:
@@ -99,12 +131,10 @@ def tips_of(mark: Mark) -> list[Array]:
     return list(points) if len(points) == 3 else []
 
 
-def ends_of(mark: Mark) -> Array | None:
-    """Return the ends of a mark that is one open line, (2, 2); None if it is none."""
-    if mark.pen is None or len(mark.outlines) != 1 or mark.outlines[0].closed:
-        return None
-    points = mark.outlines[0].vertices
-    return points[[0, -1]] if (points[0] != points[-1]).any() else None
+def stands_amid(text: Text, ends: Array) -> bool:
+    """Tell whether words stand before the middle of a line (2, 2)."""
+    along = ends[1] - ends[0]
+    return bool(abs((np.array(text.position) - ends.mean(axis=0)) @ along) <= AMID * (along @ along))
 
 
 def stands_along(text: Text, ends: Array, diagonal: float) -> bool:
