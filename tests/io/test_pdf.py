@@ -6,6 +6,7 @@ from PIL import Image, ImageDraw
 
 from pilotage.errors import FileError
 from pilotage.io.pdf import PicturePageError, read_pdf, read_picture_page
+from pilotage.io.pdf.words import Letter, joined
 from pilotage.io.picture import sheet_of
 from shared_data import needs_plans, plan
 
@@ -21,7 +22,7 @@ def pdf(*contents, page="", objects=""):
         kids.append(f"{number} 0 R")
         parts.append(
             f"{number} 0 obj << /Type /Page /Parent 2 0 R /MediaBox [0 0 200 100] {page}"
-            f" /Resources << /Font << /F {FONT} >> /XObject << /X 5 0 R >> >>"
+            f" /Resources << /Font << /F {FONT} >> /XObject << /X 5 0 R >> /Pattern << /P 6 0 R >> >>"
             f" /Contents {number + 1} 0 R >> endobj\n"
             f"{number + 1} 0 obj << /Length {len(content)} >> stream\n{content}\nendstream endobj\n"
         )
@@ -98,6 +99,62 @@ def test_words_are_joined_into_lines(tmp_path):
     assert hall.angle == pytest.approx(math.pi / 2)
     assert hall.position == pytest.approx((146.4, 29), abs=2)
     assert sheet.metres_per_unit == pytest.approx(100 * 0.0254 / 72)
+
+
+def test_letters_of_a_ligature_make_one_word():
+    glyphs = [
+        ("O", 0, 7),
+        ("f", 7, 16),
+        ("f", 7, 16),
+        ("i", 7, 16),
+        ("c", 16, 21),
+        ("e", 21, 26),
+        ("2", 30, 35),
+    ]
+    (text,) = joined([Letter(letter, complex(x), complex(end), 10.0, 0.0) for letter, x, end in glyphs])
+
+    assert text.text == "Office 2"
+
+
+def test_dashes_that_are_painted_one_by_one_are_dashed_lines(tmp_path):
+    east = "".join(f"{x} 19 m {x + 4} 19 l {x + 4} 21 l {x} 21 l " for x in range(10, 58, 8))
+    north = "".join(f"69 {y} m 69 {y + 4} l 71 {y + 4} l 71 {y} l " for y in range(25, 85, 8))
+    (mark,) = read(tmp_path, f"1 0 0 rg {east} {north} f").marks
+
+    assert [line.vertices.round(4).tolist() for line in mark.outlines] == [
+        [[10, 20], [54, 20]],
+        [[70, 25], [70, 85]],
+    ]
+    assert (mark.pen.color, mark.pen.width, mark.pen.dashed, mark.fill) == ((1, 0, 0), 2, True, None)
+
+
+@pytest.mark.parametrize(
+    "boxes",
+    [
+        [(10, 4), (18, 4), (26, 4)],  # few
+        [(10, 4), (18, 4), (30, 4), (50, 4), (62, 4)],  # at several distances
+        [(10, 4), (18, 12), (34, 6), (44, 20), (68, 9)],  # of several lengths
+    ],
+)
+def test_other_rows_of_boxes_are_areas(tmp_path, boxes):
+    path = "".join(f"{x} 19 {width} 2 re " for x, width in boxes)
+    marks = read(tmp_path, f"{path} f").marks
+
+    assert len(boxes) == len(marks)
+    assert all(mark.pen is None for mark in marks)
+
+
+def test_a_pattern_over_the_whole_page_is_paper(tmp_path):
+    tile = (
+        "6 0 obj << /Type /Pattern /PatternType 1 /PaintType 1 /TilingType 1 /BBox [0 0 5 5]"
+        " /XStep 5 /YStep 5 /Resources << >> /Length 13 >> stream\n0 0 m 5 0 l S\nendstream endobj\n"
+    )
+    squared = "/Pattern cs /P scn"
+    (mark, floor) = read(
+        tmp_path, f"{squared} 0 0 200 100 re f 10 10 m 90 10 l S 20 20 50 50 re f", objects=tile
+    ).marks
+
+    assert (vertices(mark), floor.outlines[0].vertices.max()) == ([[10, 10], [90, 10]], 70)
 
 
 def test_a_turned_and_cropped_page_is_read_as_it_is_shown(tmp_path):

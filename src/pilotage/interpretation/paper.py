@@ -21,8 +21,8 @@ SAME = 0.02
 SMALL = 0.1
 """What is no longer than this share of a drawing in white is a thing in it, and does not tell its ground."""
 
-COVERING = 0.999
-"""A rectangle covers the page if it hides this share of it: exporters round."""
+COVERING = 0.99
+"""A rectangle covers the page if it hides this share of it: exporters round, and printers leave a hair."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,12 @@ import shapely
 
 from pilotage.errors import FileError
 from pilotage.geometry import Affine2, Polyline, signed_area
-from pilotage.interpretation.sheet import Color, Pen, Sheet
+from pilotage.interpretation.paper import COVERING, bounds_of, share_within
+from pilotage.interpretation.sheet import Bounds, Color, Mark, Pen, Sheet
 from pilotage.io.clip import Clip, Part, area_of, cut
 from pilotage.io.hatching import filled_hatching
 from pilotage.io.pages import choose_page, other_pages
+from pilotage.io.pdf.dashes import dashed_lines
 from pilotage.io.pdf.document import open_page, opened, page_names
 from pilotage.io.pdf.frame import shown_from_content
 from pilotage.io.pdf.paths import Handle, clips_of, layers_of, matrix_of, paint_of, path_of, stroke_of
@@ -27,6 +29,9 @@ POINT = 0.0254 / 72.0
 
 DEEPEST = 12
 """Forms within forms."""
+
+PATTERN = (191 / 255, 191 / 255, 191 / 255)
+"""The color that the library tells of a pattern, whatever it shows."""
 
 PICTURE_SHARE = 0.3
 """A page is a picture if pictures cover this share of it and it has next to no lines."""
@@ -66,13 +71,20 @@ def read_pdf(path: Path, page: str | None = None) -> Sheet:
             with walk.builder.surviving("damaged words"):
                 for text in read_texts(shown, frame):
                     walk.builder.add_text(text)
-    walk.builder.marks[:] = filled_hatching(walk.builder.marks)
+    page_box = (0.0, 0.0, width, height)
+    marks = [mark for mark in walk.builder.marks if not is_squared_paper(mark, page_box)]
+    walk.builder.marks[:] = filled_hatching(marks)
     scale = find_scale(text.text for text in walk.builder.texts)
     return walk.builder.build(
-        page=(0.0, 0.0, width, height),
+        page=page_box,
         metres_per_unit=None if scale is None else scale * POINT,
         remarks=other_pages(names, index, path),
     )
+
+
+def is_squared_paper(mark: Mark, page: Bounds) -> bool:
+    """Tell whether a pattern covers the whole page."""
+    return mark.fill == PATTERN and share_within(page, bounds_of(mark)) >= COVERING
 
 
 @dataclass
@@ -134,6 +146,8 @@ class Walk:
             return
         width, dashed = stroke_of(handle)
         pen = None if color is None else Pen(color, width * shown_from_object.scale, dashed)
+        if fill is not None and pen is None and (dashes := dashed_lines(outlines)) is not None:
+            outlines, pen, fill = list(dashes[0]), Pen(fill, dashes[1], dashed=True), None
         names = (*where.names, *layers_of(handle))
         clip = self.clip_of(handle, where)
         for part, part_pen, part_fill in parts_of(outlines, pen, fill, clip, winding=winding):

@@ -89,7 +89,7 @@ def letters_of(page: "pypdfium2.PdfPage", shown_from_content: Affine2) -> Iterat
 def follows(before: Letter, letter: Letter) -> bool:
     """Tell whether a letter continues the line of another."""
     turn = math.remainder(letter.angle - before.angle, 2.0 * math.pi)
-    step = (letter.start - before.end) * complex(math.cos(before.angle), -math.sin(before.angle))
+    step = step_between(before, letter)
     size = max(before.size, letter.size)
     return (
         abs(turn) < 0.1
@@ -98,16 +98,26 @@ def follows(before: Letter, letter: Letter) -> bool:
     )
 
 
+def step_between(before: Letter, letter: Letter) -> complex:
+    """Return how far a letter begins behind the end of another, and above its base line.
+
+    Letters of a ligature begin where it does, so this may be less than nothing.
+    """
+    return (letter.start - before.end) * complex(math.cos(before.angle), -math.sin(before.angle))
+
+
 def joined(line: list[Letter]) -> Iterator[Text]:
-    """Join letters of one line."""
+    """Join letters of one line; a gap is measured from the farthest letter, for some stand on others."""
     letters = [letter for letter in line if letter.letter.strip()]
     if not letters:
         return
-    words = ""
-    for k, letter in enumerate(line):
-        if k and not words.endswith(" ") and abs(letter.start - line[k - 1].end) > SPACE * letter.size:
+    words, last = "", line[0]
+    direction = complex(math.cos(line[0].angle), math.sin(line[0].angle))
+    for letter in line:
+        if words and not words.endswith(" ") and step_between(last, letter).real > SPACE * letter.size:
             words += " "
         words += letter.letter
+        last = letter if ((letter.end - last.end) / direction).real > 0.0 else last
     size = float(np.median([letter.size for letter in letters]))
     angle = letters[0].angle
     upright = complex(-math.sin(angle), math.cos(angle))
