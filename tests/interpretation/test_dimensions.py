@@ -3,10 +3,12 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from flats import BLACK, LABELS, RED, WITH_GAP, box, graph_of, stroke
-from pilotage.interpretation import Role, Sheet, Text, interpret
+from pilotage.geometry import Polyline
+from pilotage.interpretation import Mark, Role, Sheet, Text, interpret
 
 OUTER = [(0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80), (96, 0, 100, 80), (48, 4, 52, 30), (48, 42, 52, 76)]
 PAINTED = tuple(box(*bounds, fill=BLACK) for bounds in OUTER)
@@ -88,3 +90,13 @@ def test_a_thin_line_with_a_length_before_its_middle_needs_no_signs(width, numbe
     marks = (*WITH_GAP, stroke((0, 20), (50, 20), width=width))
 
     assert is_dimension is (Role.IGNORE in roles(marks, (number,))[len(WITH_GAP) :])
+
+
+@pytest.mark.parametrize("signs", [ticks((0, 20), (50, 20)), ticks((0, 20))])
+def test_a_number_may_be_written_in_outlines(signs):
+    angles = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    digits = [Mark((Polyline(np.add(ring, (x, 22.0)), closed=True),), fill=BLACK) for x in (23.0, 25.5, 28.0)]
+    line = stroke((0, 20), (50, 20))
+
+    assert (len(signs) == 2) is (Role.IGNORE is roles((*WITH_GAP, line, *signs, *digits), ())[len(WITH_GAP)])

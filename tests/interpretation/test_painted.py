@@ -1,12 +1,16 @@
 """Rooms that are painted and have no line around them."""
 
+import numpy as np
 import pytest
 
 from flats import BLACK, OUTSIDE, WITH_GAP, box, stroke
-from pilotage.interpretation import NoWallsError, Pen, Role, Sheet, Text, interpret
+from pilotage.geometry import Polyline
+from pilotage.interpretation import Mark, NoWallsError, Pen, Role, Sheet, Text, interpret
 from pilotage.maps import DecompositionSettings, decompose
 
 BLUE, PINK, GREEN, GRAY = (0.8, 0.87, 1.0), (1.0, 0.85, 0.88), (0.85, 1.0, 0.85), (0.85, 0.85, 0.85)
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+RING = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
 DOTS = tuple(box(x, 95, x + 2, 97, pen=Pen(BLACK, 1.0)) for x in (0, 20, 40))
 
 
@@ -36,6 +40,18 @@ def test_painted_fills_with_words_are_rooms_where_no_walls_are_drawn(gap, fills,
     assert {(Role.WALL, "painted as a room; its edge is the wall")} == {
         (one.role, one.reason) for one in meanings
     }
+
+
+def test_letters_in_outlines_are_words_as_well():
+    marks, texts = cards()
+    letters = [
+        Mark((Polyline(np.array(text.position) + 0.5 * RING + (k, 0.0), closed=True),), fill=BLACK)
+        for text in texts
+        for k in range(4)
+    ]
+    graph = decompose(interpret(Sheet((*marks, *DOTS, *letters))).sketch, DecompositionSettings())
+
+    assert {3} == {len({graph.cell_at((x, 20.0)) for x in (15.0, 45.0, 75.0)})}
 
 
 def test_where_nothing_else_is_drawn_fills_are_rooms_without_words():

@@ -100,6 +100,25 @@ def test_words_of_one_mark_are_letters_across_the_spaces_between_them():
     assert Role.LABEL not in {meaning.role for meaning in meanings((*WITH_GAP, *area))[3:]}
 
 
+def test_letters_in_outlines_tell_a_closed_room_from_a_block():
+    inner = box(35, 30, 65, 50, pen=Pen(BLACK, 1.0))
+    word = [letter(x, 40.0) for x in (46.0, 48.5, 51.0, 53.5)]
+    marks = (
+        box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)),
+        stroke((50, 0), (50, 12)),
+        stroke((50, 20), (50, 30)),
+        inner,
+    )
+
+    assert len(graph_of(marks, ()).cells) + 1 == len(graph_of((*marks, *word), ()).cells)
+
+
+def test_programs_call_the_letters_of_a_font_glyphs():
+    two = [replace(letter(x), names=("page", f"glyph{k}-7")) for k, x in enumerate((20.0, 22.5))]
+
+    assert [Role.LABEL] * 2 == [meaning.role for meaning in meanings((*WITH_GAP, *two))[3:]]
+
+
 def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
     eyes = [
         Mark((*letter(x).outlines, *box(x - 0.4, 39.6, x + 0.4, 40.4).outlines), fill=BLACK)

@@ -58,12 +58,16 @@ class Outline:
         return self.mark, self.place
 
 
-def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], diagonal: float) -> set[int]:
+def find_dimensions(
+    sheet: Sheet, seen: Sequence[Seen], named: Container[int], lettering: Sequence[Text], diagonal: float
+) -> set[int]:
     """Find the marks without a name, by number, that are dimension lines, and the signs at their ends.
 
-    A mark may hold several: both arrowheads of a line, or the line with its ticks.
+    A mark may hold several: both arrowheads of a line, or the line with its ticks. `lettering` is what is
+    written in outlines: it may be a number.
     """
     texts = [text for text in sheet.texts if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)]
+    texts += lettering
     if not texts:
         return set()
     outlines = [
@@ -89,7 +93,7 @@ def find_dimensions(sheet: Sheet, seen: Sequence[Seen], named: Container[int], d
         small = [(end, signs[place][0]) for end, place in near if signs[place][1] <= most]
         if {end for end, _ in small} == {0, 1}:
             found |= {line.key, *(sign for _, sign in small)}
-        elif line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
+        elif text.text and line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
             found.add(line.key)
     counts = Counter(number for number, _ in found)
     return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
@@ -138,14 +142,14 @@ def stands_amid(text: Text, ends: Array) -> bool:
 
 
 def stands_along(text: Text, ends: Array, diagonal: float) -> bool:
-    """Tell whether words stand beside a line (2, 2), between its ends, and read along it."""
+    """Tell whether words stand beside a line (2, 2), between its ends, and may read along it."""
     length = float(np.hypot(*(ends[1] - ends[0])))
     along = (ends[1] - ends[0]) / length
     step = np.array(text.position) - ends[0]
     aside = abs(along[0] * step[1] - along[1] * step[0])
     turn = abs(along[0] * math.sin(text.angle) - along[1] * math.cos(text.angle))
     is_near = aside <= BESIDE * height_of(text, diagonal)
-    return bool(0.0 < step @ along < length and is_near and turn <= TURNED)
+    return bool(0.0 < step @ along < length and is_near and not turn > TURNED)
 
 
 def height_of(text: Text, diagonal: float) -> float:

@@ -94,7 +94,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
         start=start,
         goal=goal,
         labels=tuple(Label(name.words, name.position) for name in names),
-        unread=sheet.unread,
+        unread=(*sheet.unread, *(text.position for text in view.lettering)),
         solids=tuple(polyline for ring in rings_of(solid) for polyline in polylines_of(ring)),
         source=sheet.source,
         y_down=sheet.y_down,

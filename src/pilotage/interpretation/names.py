@@ -63,7 +63,7 @@ VOCABULARY: Mapping[Role, str] = {
     " sanitari meubels kast kasten tafel tafels stoel stoelen bedden rekken mobiliário móveis moveis"
     " prateleira prateleiras armário armários cadeira cadeiras louças",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto"
-    " textos tekst raumnamen raumbezeichnung",
+    " textos tekst raumnamen raumbezeichnung glyph glyphs",
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"

@@ -36,9 +36,10 @@ def find_painted_rooms(view: View) -> list[int]:
     others = [mark.shape for mark in view.visible if mark.number not in own]
     if not others:
         return sorted(own)
-    if len(fills) < FEW or not view.sheet.texts:
+    written = [*view.sheet.texts, *view.lettering]
+    if len(fills) < FEW or not written:
         return []
-    words = shapely.points([text.position for text in view.sheet.texts])
+    words = shapely.points([text.position for text in written])
     areas = np.array([mark.area for mark in fills], dtype=object)
     inside, around = shapely.STRtree(areas).query(words, predicate="within")
     named = areas[np.unique(around)]
@@ -46,7 +47,8 @@ def find_painted_rooms(view: View) -> list[int]:
         return []
     if shapely.area(named).sum() < COVERING * shapely.convex_hull(shapely.union_all(named)).area:
         return []
-    walls = shapely.buffer(shapely.union_all(others), BESIDE * view.diagonal)
+    reach = BESIDE * view.diagonal
+    walls = shapely.union_all(shapely.buffer(others, reach, quad_segs=2))  # of the union it takes far longer
     outlines = shapely.boundary(named)
     walled = shapely.length(shapely.intersection(outlines, walls)) / shapely.length(outlines)
     return sorted(own) if float(np.median(walled)) < WALLED else []

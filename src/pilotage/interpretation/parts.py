@@ -48,7 +48,7 @@ def take_apart(view: View) -> Parts:
     """Find doors, signs and stairs among the visible marks, and walls in what is left."""
     sheet, ground, diagonal = view.sheet, view.paper.ground, view.diagonal
     built = view.all_but(NO_DOORS, view.visible)
-    measuring = find_dimensions(sheet, built, view.guessed, diagonal)
+    measuring = find_dimensions(sheet, built, view.guessed, view.lettering, diagonal)
     unnamed = [mark for mark in built if mark.number not in view.guessed]
     signs, written = find_signs(sheet, unnamed, diagonal)
     built = [mark for mark in built if mark.number not in measuring | signs]

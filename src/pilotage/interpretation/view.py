@@ -1,16 +1,18 @@
 """What can be seen of a sheet, and what names say of its marks, before any is understood by its shape."""
 
+import math
 from collections.abc import Container, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from pilotage.interpretation.glyphs import find_glyphs
+from pilotage.interpretation.glyphs import TALLEST, find_glyphs
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at
 from pilotage.interpretation.paper import Paper, bounds_of, find_paper
-from pilotage.interpretation.sheet import Role, Sheet
+from pilotage.interpretation.sheet import Role, Sheet, Text
 
 CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
@@ -33,6 +35,21 @@ class View:
     called: Mapping[int, tuple[Role, str] | None]  # role of each drawn mark by what people call it
     visible: Sequence[Seen]
     diagonal: float  # [drawing units]
+
+    @cached_property
+    def lettering(self) -> list[Text]:
+        """What is written in outlines of letters: texts without words, each in the middle of a letter.
+
+        In which direction it reads is not known; the angle is not a number.
+        """
+        named = {mark.number for mark in self.visible if self.role(mark) is Role.LABEL}
+        letters = [self.sheet.marks[number] for number in sorted(self.letters | named)]
+        boxes = [bounds_of(letter) for letter in letters if letter.fill is not None]
+        return [
+            Text("", ((left + right) / 2.0, (bottom + top) / 2.0), height, math.nan)
+            for left, bottom, right, top in boxes
+            if (height := min(right - left, top - bottom)) <= TALLEST * self.diagonal
+        ]
 
     def role(self, mark: Seen) -> Role:
         """Return the role that a name gives to a mark; what has none may be a wall."""
