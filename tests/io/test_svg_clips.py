@@ -62,6 +62,12 @@ def test_what_lies_outside_its_clip_is_not_there(tmp_path):
     assert mark.pen is not None
 
 
+@pytest.mark.parametrize(("y", "expected"), [(100.3, (0, 50)), (100.6, (0, 0))])
+def test_a_line_along_the_border_of_its_clip_is_there_if_any_of_it_is_seen(tmp_path, y, expected):
+    (mark,) = marks(tmp_path, f'<path fill="none" stroke="#000" d="M0 50V{y}H50" clip-path="url(#left)"/>')
+    assert spans([mark]) == [expected]
+
+
 def test_the_edge_of_a_cut_area_has_no_line(tmp_path):
     body = '<rect x="20" y="20" width="60" height="60" stroke="#000" fill="#ccc" clip-path="url(#left)"/>'
     area, line = marks(tmp_path, body)

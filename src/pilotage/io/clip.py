@@ -63,13 +63,17 @@ def cut(outlines: Sequence[Polyline], pen: Pen | None, fill: Color | None, clip:
     if fill is not None:
         yield clipped_area(outlines, clip.area), None, fill
     if pen is not None:
-        yield clipped_lines(outlines, clip.area), pen, None
+        yield clipped_lines(outlines, clip.area, pen.width), pen, None
 
 
-def clipped_lines(outlines: Sequence[Polyline], clip: shapely.Geometry) -> list[Polyline]:
-    """Return the parts of lines inside a clip."""
+def clipped_lines(outlines: Sequence[Polyline], clip: shapely.Geometry, width: float) -> list[Polyline]:
+    """Return the parts of lines of a width inside a clip, or so near along its border that some is seen."""
     lines = shapely.multilinestrings([shapely.LineString(outline.ring) for outline in outlines])
-    parts = shapely.get_parts(shapely.line_merge(shapely.intersection(lines, clip)))
+    inside = shapely.intersection(lines, clip)
+    border = shapely.intersection(lines, shapely.buffer(clip, width / 2.0, join_style="mitre"))
+    beside = shapely.get_parts(shapely.line_merge(shapely.difference(border, clip)))
+    along = shapely.multilinestrings(beside[shapely.length(beside) > width])
+    parts = shapely.get_parts(shapely.line_merge(shapely.union(inside, along)))
     found = [outline_through(shapely.get_coordinates(part)) for part in parts if part.length > 0.0]
     return [outline for outline in found if outline is not None]
 
