@@ -116,6 +116,13 @@ def test_letters_of_a_ligature_make_one_word():
     assert text.text == "Office 2"
 
 
+def test_letters_over_their_halo_are_read_once(tmp_path):
+    halo = "BT 1 Tr 3 w 1 0 0 RG /F 10 Tf 20 40 Td (Bed room) Tj ET"
+    sheet = read(tmp_path, f"0 0 m 9 9 l S {halo} BT 0 Tr /F 10 Tf 20 40 Td (Bed room) Tj ET")
+
+    assert ["Bed room"] == [text.text for text in sheet.texts]
+
+
 def test_dashes_that_are_painted_one_by_one_are_dashed_lines(tmp_path):
     east = "".join(f"{x} 19 m {x + 4} 19 l {x + 4} 21 l {x} 21 l " for x in range(10, 58, 8))
     north = "".join(f"69 {y} m 69 {y + 4} l 71 {y + 4} l 71 {y} l " for y in range(25, 85, 8))

@@ -45,7 +45,12 @@ class Letter:
 def read_texts(page: "pypdfium2.PdfPage", shown_from_content: Affine2) -> Iterator[Text]:
     """Read the words of a page, line by line."""
     line: list[Letter] = []
+    painted: set[Letter] = set()
     for letter in letters_of(page, shown_from_content):
+        if letter in painted:
+            continue  # first its halo was painted
+        if letter is not None:
+            painted.add(letter)
         if letter is None or (line and not follows(line[-1], letter)):
             yield from joined(line)
             line = []
