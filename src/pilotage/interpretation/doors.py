@@ -12,7 +12,7 @@ from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, EVEN, UPRIGHT, Arc, find_arcs
 from pilotage.interpretation.closing import closings
 from pilotage.interpretation.leaves import find_leaves
-from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of, shapes_of
 from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Mark, Sheet
 
@@ -251,11 +251,11 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
     left = list(seen)
     if not seen:
         return left
-    tree = shapely.STRtree(np.array([mark.shape for mark in seen]))
+    tree = shapely.STRtree(shapes_of(seen).ravel())
     for door in doors:
         reach = shapely.union(door.swing, door.opening)
         shapely.prepare([door.swing, door.opening])
-        for place in tree.query(reach, predicate="intersects").tolist():
+        for place in np.unique(tree.query(reach, predicate="intersects") % len(seen)).tolist():
             mark = left[place]
             line, area = mark.line, mark.area
             if place in door.marks:
