@@ -24,7 +24,7 @@ def circle(center, radius, start, sweep, chords):
 def test_an_arc_is_found_with_its_center_radius_and_sweep(center, radius, start, degrees, chords):
     points = circle(center, radius, start, np.radians(degrees), chords)
 
-    (arc,) = find_arcs(Polyline(points))
+    ((arc, _),) = find_arcs([Polyline(points)])
 
     assert arc.center == pytest.approx(center, abs=1e-6 * radius)
     assert arc.radius == pytest.approx(radius, rel=1e-6)
@@ -37,7 +37,7 @@ def test_a_wavering_hand_moves_the_circle_no_farther_than_its_own_strays(radius,
     points = circle((0.0, 0.0), radius, start, np.radians(90.0), 8)
     strays = np.random.default_rng(seed).uniform(-0.005, 0.005, points.shape) * radius
 
-    (arc,) = find_arcs(Polyline(points + strays))
+    ((arc, _),) = find_arcs([Polyline(points + strays)])
 
     assert np.hypot(*arc.center) < 0.06 * radius
     assert arc.radius == pytest.approx(radius, rel=0.06)
@@ -46,7 +46,7 @@ def test_a_wavering_hand_moves_the_circle_no_farther_than_its_own_strays(radius,
 def test_an_arc_is_found_at_the_end_of_its_leaf():
     leaf = np.array([[0.0, 0.0], [10.0, 0.0]])
 
-    (arc,) = find_arcs(Polyline(np.vstack([leaf, circle((0, 0), 10.0, 0.0, np.pi / 2.0, 9)[1:]])))
+    ((arc, _),) = find_arcs([Polyline(np.vstack([leaf, circle((0, 0), 10.0, 0.0, np.pi / 2.0, 9)[1:]]))])
 
     assert arc.center == pytest.approx([0.0, 0.0], abs=0.5)
     assert arc.radius == pytest.approx(10.0, rel=0.05)
@@ -66,7 +66,7 @@ def test_a_quadratic_curve_around_a_corner_is_the_quarter_circle_about_the_hinge
     t = np.linspace(0.0, 1.0, chords + 1)[:, None]
     curve = hinge + (1 - t) ** 2 * first + 2 * t * (1 - t) * (first + last) + t**2 * last
 
-    (arc,) = find_arcs(Polyline(curve))
+    ((arc, _),) = find_arcs([Polyline(curve)])
 
     assert arc.center == pytest.approx(hinge, abs=1e-6 * (1.0 + radius))
     assert arc.radius == pytest.approx(radius, rel=1e-6)
@@ -76,7 +76,7 @@ def test_a_quadratic_curve_around_a_corner_is_the_quarter_circle_about_the_hinge
 def test_vertices_drawn_twice_do_not_matter():
     points = circle((1, 2), 3.0, 0.5, np.pi / 2.0, 8)
 
-    (arc,) = find_arcs(Polyline(np.repeat(points, 2, axis=0)))
+    ((arc, _),) = find_arcs([Polyline(np.repeat(points, 2, axis=0))])
 
     assert arc.center == pytest.approx([1.0, 2.0])
 
@@ -93,4 +93,17 @@ def test_vertices_drawn_twice_do_not_matter():
     ids=["circle", "chamfer", "corners", "straight", "segment"],
 )
 def test_what_is_no_part_of_a_circle_is_no_arc(points):
-    assert not list(find_arcs(Polyline(points.astype(float))))
+    assert not list(find_arcs([Polyline(points.astype(float))]))
+
+
+def test_arcs_of_many_lines_are_found_as_in_each_alone():
+    arc = circle((0.0, 0.0), 10.0, 0.0, np.pi / 2.0, 8)
+    lines = [Polyline(arc), Polyline(arc[::-1]), Polyline(arc[:2]), Polyline(arc[:1] * [[1.0], [2.0]])]
+
+    found = list(find_arcs(lines))
+
+    assert [number for _, number in found] == [0, 1]
+    for arc, number in found:
+        ((alone, _),) = find_arcs([lines[number]])
+        assert arc.center.tolist() == alone.center.tolist()
+        assert arc.vertices.tolist() == alone.vertices.tolist()

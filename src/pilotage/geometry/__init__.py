@@ -2,7 +2,7 @@
 
 from pilotage.geometry.affine import Affine2
 from pilotage.geometry.angles import wrap_angle
-from pilotage.geometry.arrays import Array, frozen_array, frozen_points
+from pilotage.geometry.arrays import Array, frozen_array, frozen_points, numbered
 from pilotage.geometry.homography import Homography
 from pilotage.geometry.polyline import Polyline, segments_of
 from pilotage.geometry.pose import Pose2
@@ -26,6 +26,7 @@ __all__ = [
     "fit_similarity",
     "frozen_array",
     "frozen_points",
+    "numbered",
     "segments_of",
     "signed_area",
     "wrap_angle",

@@ -1,5 +1,7 @@
 """Arrays as values: copied to float64 and made read-only at the door."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -23,3 +25,8 @@ def frozen_points(points: ArrayLike, *, name: str, at_least: int) -> Array:
     if not np.isfinite(array).all():
         raise ValueError(f"{name} must be finite, got {array[~np.isfinite(array).all(axis=1)][0]}")
     return array
+
+
+def numbered(lines: Sequence[Array]) -> tuple[Array, NDArray[np.intp]]:
+    """Put the points of lines together, (n, 2), and number them by their line, (n,)."""
+    return np.concatenate(lines), np.repeat(np.arange(len(lines)), list(map(len, lines)))

@@ -1,11 +1,12 @@
 """Find arcs of a quarter circle, more or less, in drawn lines."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from pilotage.geometry import Array, Polyline, fit_circle
+from pilotage.geometry import Array, Polyline, fit_circle, numbered
 
 LEAST_CHORDS = 3
 """An arc is cut into at least so many chords; fewer are corners of a shape."""
@@ -47,37 +48,38 @@ class Arc:
     is_part: bool = False  # of a much longer line: a notch for a door in an outline, or a rounded corner
 
 
-def find_arcs(line: Polyline) -> Iterator[Arc]:
-    """Find the arcs of one line."""
-    points = line.ring
-    if len(points) < LEAST_CHORDS + 1:
+def find_arcs(lines: Sequence[Polyline]) -> Iterator[tuple[Arc, int]]:
+    """Find the arcs of lines, and the number of the line that each is a part of."""
+    if not lines:
         return
-    points = points[np.append(True, np.hypot(*np.diff(points, axis=0).T) > 0.0)]
+    points, owners = numbered([line.ring for line in lines])
+    moves = np.append(True, (np.diff(points, axis=0) != 0.0).any(axis=1) | (np.diff(owners) != 0))
+    points, owners = points[moves], owners[moves]
     steps = np.diff(points, axis=0)
-    lengths = np.hypot(*steps.T)
-    if len(steps) < LEAST_CHORDS:
-        return
+    lengths = np.where(owners[:-1] == owners[1:], np.hypot(*steps.T), 0.0)
+    whole = np.bincount(owners[:-1], weights=lengths, minlength=len(lines))
     for first, last in bows(steps, lengths):
-        chords = lengths[first : last + 1]
-        is_part = bool(chords.sum() < SHARE * lengths.sum())
+        chords, line = lengths[first : last + 1], int(owners[first])
+        is_part = bool(chords.sum() < SHARE * whole[line])
         arc = fitted(points[first : last + 2], is_part=is_part)
         if arc is not None and (arc.sweep >= AJAR or chords.max() <= EVEN * chords.min()):
-            yield arc
+            yield arc, line
 
 
 def bows(steps: Array, lengths: Array) -> Iterator[tuple[int, int]]:
-    """Find runs of chords (n, 2) that turn gently to one side: the first and last chord of each."""
+    """Find runs of chords (n, 2) that turn gently to one side: the first and last chord of each.
+
+    Between two lines is a step without a length.
+    """
     directions = np.arctan2(steps[:, 1], steps[:, 0])
     turns = (np.diff(directions) + np.pi) % (2.0 * np.pi) - np.pi
-    ratio = np.maximum(lengths[1:], lengths[:-1]) / np.minimum(lengths[1:], lengths[:-1])
-    is_gentle = (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4) & (ratio < BOW)
-    first = 0
-    for k in range(len(turns) + 1):
-        is_end = k == len(turns) or not is_gentle[k]
-        if is_end or (k > first and np.sign(turns[k]) != np.sign(turns[first])):
-            if k - first + 1 >= LEAST_CHORDS:
-                yield first, k
-            first = k + 1 if is_end else k
+    even = np.maximum(lengths[1:], lengths[:-1]) < BOW * np.minimum(lengths[1:], lengths[:-1])
+    is_gentle = even & (np.abs(turns) < STEEPEST) & (np.abs(turns) > 1e-4)
+    sides = np.where(is_gentle, np.sign(turns), 0.0)
+    edges = np.flatnonzero(np.diff(sides, prepend=np.nan, append=np.nan))
+    for first, last in pairwise(edges.tolist()):
+        if sides[first] != 0.0 and last - first + 1 >= LEAST_CHORDS:
+            yield first, last
 
 
 def fitted(points: Array, *, is_part: bool) -> Arc | None:

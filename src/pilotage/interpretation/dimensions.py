@@ -76,12 +76,11 @@ def find_dimensions(
         if mark.number not in named
         for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
-    extents = [float(np.ptp(outline.vertices, axis=0).max()) for outline in outlines]
     signs = [
         (outline.key, extent, tip)
-        for outline, extent in zip(outlines, extents, strict=True)
-        if extent <= SIGN * diagonal
+        for outline in outlines
         for tip in tips_of(outline.vertices)
+        if (extent := float(np.ptp(outline.vertices, axis=0).max())) <= SIGN * diagonal
     ]
     found: set[tuple[int, int]] = set()
     tree = shapely.STRtree(shapely.points([tip for *_, tip in signs])) if signs else shapely.STRtree([])

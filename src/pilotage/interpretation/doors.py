@@ -12,9 +12,9 @@ from pilotage.geometry import Array
 from pilotage.interpretation.arcs import AJAR, EVEN, UPRIGHT, Arc, find_arcs
 from pilotage.interpretation.closing import closings
 from pilotage.interpretation.leaves import find_leaves
-from pilotage.interpretation.paint import NOTHING, Seen, parts_of
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of, shapes_of
 from pilotage.interpretation.segments import Segments, segments_of
-from pilotage.interpretation.sheet import Mark, Sheet
+from pilotage.interpretation.sheet import Sheet
 
 RADII = (0.004, 0.12)
 """Least and largest radius of a door as a share of the drawing's diagonal: in a hall, in a kiosk."""
@@ -85,15 +85,21 @@ def find_doors(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Door
     An arc is a door's if there is a leaf along one of its spokes, or if it is as wide as those that have one;
     where no leaf is drawn at all, if a wall ends at its hinge and its latch.
     """
-    arcs = [(arc, place) for place, mark in enumerate(seen) for arc in arcs_of(sheet.marks[mark.number])]
+    outlines = [
+        (outline, place) for place, mark in enumerate(seen) for outline in sheet.marks[mark.number].outlines
+    ]
     radii = (RADII[0] * diagonal, RADII[1] * diagonal)
-    arcs = [(arc, place) for arc, place in arcs if radii[0] <= arc.radius <= radii[1]]
+    arcs = [
+        (arc, outlines[number][1])
+        for arc, number in find_arcs([outline for outline, _ in outlines])
+        if radii[0] <= arc.radius <= radii[1]
+    ]
     segments = segments_of(seen)
-    judged = [righted(arc, marks, segments) for arc, marks in without_twins(arcs)]
+    judged = righted(without_twins(arcs), segments)
     judged = [one for one in judged if not one[0].is_part or is_notch(one[0], *one[2:])]
-    ajar = without_odd_walls(
-        [arc for arc in find_leaves(sheet, seen, segments, radii) if judge(arc, segments)[1][1] == 2.0]
-    )
+    ajar = find_leaves(sheet, seen, segments, radii)
+    ajar = [arc for arc, walls in zip(ajar, judge(ajar, segments)[1], strict=True) if walls[1] == 2.0]
+    ajar = without_odd_walls(ajar)
     leaved = [arc for arc, _, leaves, _ in judged if leaves.any()]
     hang = any(walls.max() == 2.0 for _, _, leaves, walls in judged if leaves.any())  # not those of a chart
     candidates = (leaved if hang else ajar) or leaved or [arc for arc, *_ in judged]
@@ -154,11 +160,6 @@ def usual_width(arcs: Sequence[Arc]) -> float:
     return ordered[int(np.searchsorted(length, length[-1] / 2.0))].radius
 
 
-def arcs_of(mark: Mark) -> list[Arc]:
-    """Find the arcs of a mark."""
-    return [arc for outline in mark.outlines for arc in find_arcs(outline)]
-
-
 def without_twins(arcs: Sequence[tuple[Arc, int]]) -> list[tuple[Arc, tuple[int, ...]]]:
     """Keep the widest of arcs that draw the same door, with the marks of all."""
     ordered = sorted(arcs, key=lambda item: -item[0].radius)
@@ -183,32 +184,33 @@ def without_twins(arcs: Sequence[tuple[Arc, int]]) -> list[tuple[Arc, tuple[int,
     return [(ordered[rank][0], tuple(sorted(set(marks)))) for rank, marks in kept.items()]
 
 
-def judge(arc: Arc, segments: Segments) -> tuple[NDArray[np.bool_], Array]:
-    """Tell for both ends of an arc whether a leaf lies there, and at how many sides of it there is a wall."""
-    leaves, walls = np.zeros(2, dtype=bool), np.zeros(2)
-    for k, end in enumerate(arc.ends):
-        along = (end - arc.center) / arc.radius
-        leaves[k] = has_leaf(arc, end, segments)
-        for point in (end + BESIDE * along * arc.radius, arc.center - BESIDE * along * arc.radius):
-            near = segments.tree.query(
-                shapely.Point(point), predicate="dwithin", distance=SLACK * 1.5 * arc.radius
-            )
-            walls[k] += len(near) > 0
-    return leaves, walls
+def judge(arcs: Sequence[Arc], segments: Segments) -> tuple[NDArray[np.bool_], Array]:
+    """Tell at both ends of arcs whether a leaf lies there, and at how many sides of it is a wall, (n, 2)."""
+    radii = np.repeat([arc.radius for arc in arcs], 2)
+    spokes = np.array([(arc.center, end) for arc in arcs for end in arc.ends]).reshape(-1, 2, 2)
+    beyond = spokes + BESIDE * np.diff(spokes, axis=1) * [[-1.0], [1.0]]
+    reach = np.repeat(SLACK * 1.5 * radii, 2)
+    near, _ = segments.tree.query(shapely.points(beyond.reshape(-1, 2)), predicate="dwithin", distance=reach)
+    walls = (np.bincount(near, minlength=len(reach)) > 0).reshape(-1, 2, 2).sum(axis=2, dtype=np.float64)
+    return have_leaves(spokes, radii, segments).reshape(-1, 2), walls
 
 
 def righted(
-    arc: Arc, marks: tuple[int, ...], segments: Segments
-) -> tuple[Arc, tuple[int, ...], NDArray[np.bool_], Array]:
-    """Judge an arc; it is mirrored over its chord if only so a wall runs along its hinge and latch.
+    arcs: Sequence[tuple[Arc, tuple[int, ...]]], segments: Segments
+) -> list[tuple[Arc, tuple[int, ...], NDArray[np.bool_], Array]]:
+    """Judge arcs; one is mirrored over its chord if only so a wall runs along its hinge and latch.
 
     The sense of an arc is easily mistaken where it is written by hand.
     """
-    mirrored = replace(arc, center=arc.ends.sum(axis=0) - arc.center)
-    leaves, walls = judge(arc, segments)
-    if is_quarter(arc) and not leaves.any() and walls.max() < 2.0 and is_at_wall(mirrored, segments):
-        return mirrored, marks, *judge(mirrored, segments)
-    return arc, marks, leaves, walls
+    found = []
+    for (arc, marks), leaves, walls in zip(arcs, *judge([arc for arc, _ in arcs], segments), strict=True):
+        mirrored = replace(arc, center=arc.ends.sum(axis=0) - arc.center)
+        if is_quarter(arc) and not leaves.any() and walls.max() < 2.0 and is_at_wall(mirrored, segments):
+            (mirrored_leaves,), (mirrored_walls,) = judge([mirrored], segments)
+            found.append((mirrored, marks, mirrored_leaves, mirrored_walls))
+        else:
+            found.append((arc, marks, leaves, walls))
+    return found
 
 
 def is_quarter(arc: Arc) -> bool:
@@ -234,16 +236,15 @@ def is_notch(arc: Arc, leaves: NDArray[np.bool_], walls: Array) -> bool:
     return bool(arc.sweep >= AJAR and leaves.sum() == 1 and walls[np.argmin(leaves)] == 2.0)
 
 
-def has_leaf(arc: Arc, end: Array, segments: Segments) -> bool:
-    """Tell whether a segment of the right length runs along the spoke to one end of an arc."""
-    spoke = shapely.buffer(
-        shapely.LineString([arc.center, end]), SLACK * 1.5 * arc.radius, cap_style="square"
-    )
-    near = segments.tree.query(spoke, predicate="contains")
-    near = near[
-        (segments.lengths[near] >= LEAF[0] * arc.radius) & (segments.lengths[near] <= LEAF[1] * arc.radius)
-    ]
-    return len(near) > 0
+def have_leaves(spokes: Array, radii: Array, segments: Segments) -> NDArray[np.bool_]:
+    """Tell along which spokes (n, 2, 2) of arcs a segment of the right length runs, (n,)."""
+    around = shapely.buffer(shapely.linestrings(spokes), SLACK * 1.5 * radii, cap_style="square")
+    spoke, near = segments.tree.query(around)
+    lengths = segments.lengths[near]
+    long = (lengths >= LEAF[0] * radii[spoke]) & (lengths <= LEAF[1] * radii[spoke])
+    spoke, near = spoke[long], near[long]
+    along = shapely.contains(around[spoke], segments.tree.geometries[near])
+    return np.bincount(spoke[along], minlength=len(spokes)) > 0
 
 
 def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
@@ -251,11 +252,11 @@ def without_doors(seen: Sequence[Seen], doors: Sequence[Door]) -> list[Seen]:
     left = list(seen)
     if not seen:
         return left
-    tree = shapely.STRtree(np.array([mark.shape for mark in seen]))
+    tree = shapely.STRtree(shapes_of(seen).ravel())
     for door in doors:
         reach = shapely.union(door.swing, door.opening)
         shapely.prepare([door.swing, door.opening])
-        for place in tree.query(reach, predicate="intersects").tolist():
+        for place in np.unique(tree.query(reach, predicate="intersects") % len(seen)).tolist():
             mark = left[place]
             line, area = mark.line, mark.area
             if place in door.marks:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import shapely
 
-from pilotage.interpretation.paint import NOTHING, area_of, parts_of
+from pilotage.interpretation.paint import NOTHING, areas_of, parts_of
 from pilotage.interpretation.paper import SAME, difference
 from pilotage.interpretation.sheet import Color, Mark
 from pilotage.interpretation.solids import lightness
@@ -52,12 +52,12 @@ def floor_edges(
 
 def find_floors(marks: Sequence[Mark], ground: Color) -> shapely.Geometry:
     """Return all that is painted in the colors of floors, also so faintly that it erases what lies below."""
-    areas = [
-        area_of(mark)
+    floors = [
+        mark
         for mark in marks
         if mark.fill is not None and is_floor(mark.fill, ground) and difference(mark.fill, ground) >= SAME
     ]
-    return shapely.union_all(areas)
+    return shapely.union_all(areas_of(floors))
 
 
 def is_floor(color: Color, ground: Color) -> bool:

@@ -42,14 +42,16 @@ def find_leaves(
         for outline in sheet.marks[mark.number].outlines
         if not outline.closed
     ]
-    alone = [line[[0, -1]] for line in drawn if is_straight(line)]
-    last = [end for line in drawn if not is_straight(line) for end in (line[[1, 0]], line[[-2, -1]])]
-    both_ways = alone + [line[::-1] for line in alone]
+    straight: list[Array] = []
+    bent: list[Array] = []
+    for line in drawn:
+        (straight if is_straight(line) else bent).append(line)
+    both_ways = [(line[0], line[-1]) for line in straight] + [(line[-1], line[0]) for line in straight]
+    last = [ends for line in bent for ends in ((line[1], line[0]), (line[-2], line[-1]))]
     arcs = [
         swept(hinge, tip, segments, is_part=is_part)
         for lines, short, is_part in ((both_ways, SHORT, False), (last, 0.0, True))
-        for hinge, tip in free_lines(lines, segments, radii, short)
-        if not is_hatching(hinge, tip, segments)
+        for hinge, tip in without_hatching(free_lines(lines, segments, radii, short), segments)
     ]
     found = [arc for arc in arcs if arc is not None]
     hinges = shapely.points([arc.center for arc in found]) if found else np.empty(0, dtype=object)
@@ -60,8 +62,10 @@ def find_leaves(
     ]
 
 
-def free_lines(lines: Sequence[Array], segments: Segments, radii: tuple[float, float], short: float) -> Array:
-    """Choose lines (2, 2) from hinge to tip, of a leaf's length, whose outer half nothing comes near to.
+def free_lines(
+    lines: Sequence[tuple[Array, Array]], segments: Segments, radii: tuple[float, float], short: float
+) -> Array:
+    """Choose lines from hinge to tip, of a leaf's length, whose outer half nothing comes near to.
 
     What is shorter than `short`, a share of the line, may. Returns (n, 2, 2).
     """
@@ -77,6 +81,8 @@ def free_lines(lines: Sequence[Array], segments: Segments, radii: tuple[float, f
 
 def is_straight(points: Array) -> bool:
     """Tell whether all vertices (n, 2) lie on a line from the first to the last, up to its thickness."""
+    if len(points) == 2:  # most lines of large drawings
+        return True
     along = points[-1] - points[0]
     spokes = points - points[0]
     strays = np.abs(spokes[:, 0] * along[1] - spokes[:, 1] * along[0])
@@ -102,13 +108,15 @@ def swept(hinge: Array, tip: Array, segments: Segments, *, is_part: bool) -> Arc
     return None
 
 
-def is_hatching(hinge: Array, tip: Array, segments: Segments) -> bool:
-    """Tell whether lines like this one lie beside it; a leaf has two sides at most."""
-    along = tip - hinge
-    length = float(np.hypot(*along))
-    near = segments.tree.query(shapely.Point((hinge + tip) / 2.0), predicate="dwithin", distance=length)
+def without_hatching(lines: Array, segments: Segments) -> Array:
+    """Leave out lines (n, 2, 2) that have others like them beside them; a leaf has two sides at most."""
+    along = lines[:, 1] - lines[:, 0]
+    lengths = np.hypot(*along.T)
+    line, near = segments.tree.query(
+        shapely.points(lines.mean(axis=1)), predicate="dwithin", distance=lengths
+    )
     steps = segments.ends[near, 1] - segments.ends[near, 0]
-    lengths = segments.lengths[near]
-    turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0]) / length
-    alike = (lengths >= SHORT * length) & (lengths <= length / SHORT) & (turn <= AT * lengths)
-    return int(alike.sum()) > SIDES
+    shares = segments.lengths[near] / lengths[line]
+    turn = np.abs(steps[:, 0] * along[line, 1] - steps[:, 1] * along[line, 0]) / lengths[line]
+    alike = (shares >= SHORT) & (shares <= 1.0 / SHORT) & (turn <= AT * segments.lengths[near])
+    return np.asarray(lines[np.bincount(line[alike], minlength=len(lines)) <= SIDES])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.floors import is_floor
-from pilotage.interpretation.paint import Seen, parts_of
+from pilotage.interpretation.paint import Seen, parts_of, shapes_of
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.walls import Walls
 
@@ -60,7 +60,7 @@ def meanings_of_visible(sheet: Sheet, found: Evidence) -> Iterator[tuple[int, Me
     arcs = {found.visible[place].number for door in found.doors for place in door.marks}
     left = {mark.number for mark in found.left if not (mark.line.is_empty and mark.area.is_empty)}
     walls = found.walls
-    shapes = np.array([mark.shape for mark in found.visible], dtype=object)
+    shapes = shapes_of(found.visible)
     in_thick = near(shapes, walls.solid, ALONG * found.diagonal)
     in_thin = near(shapes, walls.lines, ALONG * found.diagonal)
     for mark, is_thick, is_thin in zip(found.visible, in_thick.tolist(), in_thin.tolist(), strict=True):
@@ -84,9 +84,10 @@ def meanings_of_visible(sheet: Sheet, found: Evidence) -> Iterator[tuple[int, Me
 
 
 def near(shapes: NDArray[np.object_], walls: shapely.Geometry | None, distance: float) -> NDArray[np.bool_]:
-    """Tell which shapes (n,) come near to walls, (n,)."""
-    found = np.zeros(len(shapes), dtype=bool)
-    if walls is not None and len(shapes):
+    """Tell of which marks the lines or the areas, (2, n), come near to walls, (n,)."""
+    found = np.zeros(shapes.shape[1], dtype=bool)
+    if walls is not None and len(found):
         tree = shapely.STRtree(parts_of(walls))
-        found[tree.query(shapes, predicate="dwithin", distance=distance)[0]] = True
+        close, _ = tree.query(shapes.ravel(), predicate="dwithin", distance=distance)
+        found[close % len(found)] = True
     return found

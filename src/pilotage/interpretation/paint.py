@@ -1,15 +1,16 @@
 """What can be seen of each mark once all is painted: what later paint hides is not there."""
 
+import math
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.geometry import Polyline
-from pilotage.interpretation.paper import FAINT, difference
+from pilotage.geometry import Array, Polyline, numbered
+from pilotage.interpretation.paper import FAINT
 from pilotage.interpretation.sheet import Color, Mark, Sheet
 
 EDGE = 0.0005
@@ -27,7 +28,7 @@ ALONG = 3.0
 NOTHING = shapely.GeometryCollection()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Seen:
     """What is left of a mark."""
 
@@ -36,96 +37,124 @@ class Seen:
     area: shapely.Geometry  # where its fill is seen
     whole: bool  # whether all of its line is seen
 
-    @cached_property
-    def shape(self) -> shapely.Geometry:
-        """Line and area together."""
-        return united(self.line, self.area)
+
+def shapes_of(seen: Sequence[Seen]) -> NDArray[np.object_]:
+    """Return the lines and the areas of marks, (2, n)."""
+    return np.array([[mark.line for mark in seen], [mark.area for mark in seen]], dtype=object)
 
 
 def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float) -> list[Seen]:
     """Find what is seen of the marks with these numbers; a mark of which nothing is seen is left out."""
     marks = [sheet.marks[number] for number in numbers]
-    areas = [area_of(mark) if mark.fill is not None else NOTHING for mark in marks]
-    inked = [mark.pen is not None and difference(mark.pen.color, ground) >= FAINT for mark in marks]
-    lines = [line_of(mark) if shown else NOTHING for mark, shown in zip(marks, inked, strict=True)]
-    covers = shapely.buffer(np.array(areas, dtype=object), -EDGE * diagonal, join_style="mitre")
-    tracks = tracks_of(marks, ground)
-    hidden = overlaps([united(*pair) for pair in zip(lines, areas, strict=True)], covers, tracks)
-    seen = []
-    for place, (number, mark) in enumerate(zip(numbers, marks, strict=True)):
-        line, area = lines[place], areas[place]
-        if mark.fill is not None and difference(mark.fill, ground) < FAINT:
-            area = NOTHING
-        above = hidden.get(place, [])
-        if above:
-            erasers = [later for later in above if not inked[later]]
-            area = without(area, [*covers[above], *tracks[erasers]])
-            colored = [(marks[later], tracks[later]) for later in above if inked[later]]
-            wide = [tracks[later] for later in erasers if covers_line(marks[later], mark)]
-            over = hidden_by(colored, mark, line)
-            line = without(without(line, [*covers[above], *wide]), over)
-        if not (line.is_empty and area.is_empty):
-            whole = not above or bool(np.isclose(line.length, lines[place].length, rtol=1e-6))
-            seen.append(Seen(number, line, area, whole))
-    return seen
+    inks = channels([None if mark.pen is None else mark.pen.color for mark in marks])
+    fills = channels([mark.fill for mark in marks])
+    widths = np.array([np.nan if mark.pen is None else mark.pen.width for mark in marks])
+    lines, areas = lines_of(marks), areas_of(marks)
+    inked = contrast(inks, ground) >= FAINT
+    hiding = (contrast(inks, ground) < FAINT) | (np.ptp(inks, axis=1) >= UNLIKE)
+    tracks = tracks_of(lines, np.where(hiding, widths, 0.0))
+    covers = shapely.buffer(areas, -EDGE * diagonal, join_style="mitre")
+    lines[~inked] = NOTHING
+    earlier, later = overlaps(lines, areas, covers, tracks)
+    areas[contrast(fills, ground) < FAINT] = NOTHING
+    as_wide = widths[later] >= AS_WIDE * widths[earlier]
+    unlike = inked[later] & (contrast(inks[later], inks[earlier]) >= UNLIKE)
+    runs = as_wide & unlike & (shapely.length(lines)[earlier] > ALONG * widths[later])
+    over = hidden_along(lines, tracks, widths, earlier[runs], later[runs])
+    whole = np.ones(len(marks), dtype=bool)
+    for place in np.unique(earlier).tolist():
+        own = slice(*np.searchsorted(earlier, (place, place + 1)))
+        line, above, erasing = lines[place], later[own], ~inked[later[own]]
+        lines[place] = without(line, [*covers[above], *tracks[above[erasing & as_wide[own]]]])
+        lines[place] = without(lines[place], over.get(place, []))
+        areas[place] = without(areas[place], [*covers[above], *tracks[above[erasing]]])
+        whole[place] = math.isclose(lines[place].length, line.length, rel_tol=1e-6)
+    is_left = ~(shapely.is_empty(lines) & shapely.is_empty(areas))
+    found = zip(numbers, lines, areas, whole.tolist(), strict=True)
+    return [Seen(*mark) for mark, is_seen in zip(found, is_left, strict=True) if is_seen]
+
+
+def channels(colors: Sequence[Color | None]) -> Array:
+    """Put colors into an array (n, 3); what has none differs from every color by nan."""
+    return np.array([(np.nan,) * 3 if color is None else color for color in colors]).reshape(-1, 3)
+
+
+def contrast(first: Array, second: Array | Color) -> Array:
+    """Return the largest difference of colors (n, 3) in a channel, (n,)."""
+    return np.asarray(np.abs(first - second).max(axis=1))
 
 
 def overlaps(
-    shapes: Sequence[shapely.Geometry], covers: NDArray[np.object_], tracks: NDArray[np.object_]
-) -> dict[int, list[int]]:
-    """List for each mark, given what it paints, the later ones that may hide it by a fill or a line."""
-    tree = shapely.STRtree(np.array(shapes))
-    hidden: dict[int, list[int]] = {}
-    for later, pair in enumerate(zip(covers, tracks, strict=True)):
-        if not (cover := united(*pair)).is_empty:
-            for earlier in tree.query(cover, predicate="intersects").tolist():
-                if earlier < later:
-                    hidden.setdefault(earlier, []).append(later)
-    return hidden
+    lines: NDArray[np.object_],
+    areas: NDArray[np.object_],
+    covers: NDArray[np.object_],
+    tracks: NDArray[np.object_],
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """List marks, given what they paint, each with the later ones that may hide it by a fill or a line."""
+    count = len(lines)
+    tree = shapely.STRtree(np.concatenate([lines, areas]))
+    later, earlier = tree.query(np.concatenate([covers, tracks]), predicate="intersects") % max(count, 1)
+    pairs = np.unique((earlier * count + later)[earlier < later])
+    return pairs // count, pairs % count
 
 
-def united(first: shapely.Geometry, second: shapely.Geometry) -> shapely.Geometry:
-    """Put two shapes together; of the line and the area of most marks one is empty, and needs no union."""
-    return first if second.is_empty else second if first.is_empty else shapely.union(first, second)
-
-
-def line_of(mark: Mark) -> shapely.Geometry:
-    """Return the middle of a mark's line."""
-    return shapely.multilinestrings([shapely.linestrings(outline.ring) for outline in mark.outlines])
-
-
-def area_of(mark: Mark) -> shapely.Geometry:
-    """Return the area that a mark's outlines enclose, by the even-odd rule."""
-    rings = [shapely.polygons(outline.vertices) for outline in mark.outlines if len(outline) > 2]
-    if not rings:
-        return NOTHING
-    whole = shapely.multipolygons(rings)
-    if shapely.is_valid(whole):
-        return whole
-    areas = shapely.make_valid(rings, method="linework")
-    while len(areas) > 1:  # pairs, then pairs of pairs: far faster than one after the other
-        last = areas[len(areas) // 2 * 2 :]
-        areas = np.append(
-            shapely.symmetric_difference(areas[: len(areas) - len(last) : 2], areas[1::2]), last
-        )
-    return polygons_of(areas[0])
-
-
-def tracks_of(marks: Sequence[Mark], ground: Color) -> NDArray[np.object_]:
-    """Return where lines lie that hide what is below: those that cannot be seen, and those in a color."""
-    hiding = [
-        number
-        for number, mark in enumerate(marks)
+def lines_of(marks: Sequence[Mark]) -> NDArray[np.object_]:
+    """Return the middles of the lines of marks, (n,); of those without a pen nothing."""
+    lines = np.full(len(marks), NOTHING, dtype=object)
+    drawn = [
+        (place, outline.ring)
+        for place, mark in enumerate(marks)
         if mark.pen is not None
-        and mark.pen.width > 0.0
-        and (
-            max(mark.pen.color) - min(mark.pen.color) >= UNLIKE or difference(mark.pen.color, ground) < FAINT
-        )
+        for outline in mark.outlines
     ]
-    tracks = np.full(len(marks), NOTHING, dtype=object)
-    lines = np.array([line_of(marks[number]) for number in hiding], dtype=object)
-    widths = np.array([pen.width for number in hiding if (pen := marks[number].pen) is not None])
-    tracks[hiding] = shapely.buffer(lines, widths / 2.0, cap_style="flat", join_style="mitre")
+    if drawn:
+        places, rings = zip(*drawn, strict=True)
+        points, owners = numbered(rings)
+        shapely.multilinestrings(shapely.linestrings(points, indices=owners), indices=places, out=lines)
+    return lines
+
+
+def areas_of(marks: Sequence[Mark]) -> NDArray[np.object_]:
+    """Return the areas of marks, (n,), by the even-odd rule; of those without a fill nothing."""
+    areas = np.full(len(marks), NOTHING, dtype=object)
+    drawn = [
+        (place, outline.vertices)
+        for place, mark in enumerate(marks)
+        if mark.fill is not None
+        for outline in mark.outlines
+        if len(outline) > 2
+    ]
+    if drawn:
+        places, rings = zip(*drawn, strict=True)
+        points, owners = numbered(rings)
+        polygons = shapely.polygons(shapely.linearrings(points, indices=owners))
+        shapely.multipolygons(polygons, indices=places, out=areas)
+        tangled = ~shapely.is_valid(areas)
+        areas[tangled] = even_odd(*shapely.get_parts(areas[tangled], return_index=True))
+    return areas
+
+
+def even_odd(rings: NDArray[np.object_], owners: NDArray[np.intp]) -> NDArray[np.object_]:
+    """Put areas of rings together by the even-odd rule, those that follow each other with one owner."""
+    count = len(np.unique(owners))
+    areas = shapely.make_valid(rings, method="linework")
+    while len(areas) > count:  # pairs, then pairs of pairs: far faster than one after the other
+        is_first = (np.arange(len(owners)) - np.searchsorted(owners, owners)) % 2 == 0
+        pairs = np.flatnonzero(is_first[:-1] & (owners[:-1] == owners[1:]))
+        areas[pairs] = shapely.symmetric_difference(areas[pairs], areas[pairs + 1])
+        areas, owners = areas[is_first], owners[is_first]
+    parts, owners = numbered_parts(areas)
+    is_area = shapely.get_type_id(parts) == shapely.GeometryType.POLYGON
+    found = np.full(count, NOTHING, dtype=object)
+    shapely.multipolygons(parts[is_area], indices=owners[is_area], out=found)
+    return found
+
+
+def tracks_of(lines: NDArray[np.object_], widths: Array) -> NDArray[np.object_]:
+    """Return where lines (n,) lie that hide what is below, (n,); those of no width hide nothing."""
+    tracks = np.full(len(lines), NOTHING, dtype=object)
+    wide = widths > 0.0
+    tracks[wide] = shapely.buffer(lines[wide], widths[wide] / 2.0, cap_style="flat", join_style="mitre")
     return tracks
 
 
@@ -137,55 +166,44 @@ def without(shape: shapely.Geometry, covers: Sequence[shapely.Geometry]) -> shap
     return shapely.difference(shape, shapely.union_all(covering)) if covering else shape
 
 
-def covers_line(later: Mark, earlier: Mark) -> bool:
-    """Tell whether a line is wide enough to hide another that runs below it."""
-    return (
-        later.pen is not None and earlier.pen is not None and later.pen.width >= AS_WIDE * earlier.pen.width
+def hidden_along(
+    lines: NDArray[np.object_],
+    tracks: NDArray[np.object_],
+    widths: Array,
+    earlier: NDArray[np.intp],
+    later: NDArray[np.intp],
+) -> dict[int, list[shapely.Geometry]]:
+    """Return what later lines hide of earlier ones: where they run along these, and not where they cross."""
+    common = shapely.intersection(lines[earlier], tracks[later])
+    along = shapely.length(common) > ALONG * widths[later]
+    earlier, later = earlier[along], later[along]
+    pieces, pairs = numbered_parts(shapely.line_merge(common[along]))
+    long = shapely.length(pieces) > ALONG * widths[later[pairs]]
+    pairs, owners = np.unique(pairs[long], return_inverse=True)
+    runs = shapely.multilinestrings(pieces[long], indices=owners)
+    over = shapely.buffer(
+        shapely.union_all(runs[:, None], axis=1), widths[later[pairs]] / 2.0, cap_style="flat"
     )
-
-
-def hidden_by(
-    later: Sequence[tuple[Mark, shapely.Geometry]], earlier: Mark, line: shapely.Geometry
-) -> list[shapely.Geometry]:
-    """Return what lines in a color hide of a line: where they run along it, and not where they cross it."""
-    found: list[shapely.Geometry] = []
-    pen, length = earlier.pen, line.length
-    if pen is None:
-        return found
-    wide = [
-        (mark.pen.width, track)
-        for mark, track in later
-        if mark.pen is not None
-        and length > ALONG * mark.pen.width
-        and not track.is_empty
-        and covers_line(mark, earlier)
-        and difference(mark.pen.color, pen.color) >= UNLIKE
-    ]
-    if not wide:
-        return found
-    widths = np.array([width for width, _ in wide])
-    common = shapely.intersection(line, np.array([track for _, track in wide], dtype=object))
-    along = np.flatnonzero(shapely.length(common) > ALONG * widths)
-    for merged, width in zip(shapely.line_merge(common[along]), widths[along], strict=True):
-        pieces = parts_of(merged)
-        long = pieces[shapely.length(pieces) > ALONG * width]
-        if len(long):
-            found.append(shapely.buffer(shapely.union_all(long), width / 2.0, cap_style="flat"))
+    found: defaultdict[int, list[shapely.Geometry]] = defaultdict(list)
+    for place, hidden in zip(earlier[pairs].tolist(), over, strict=True):
+        found[place].append(hidden)
     return found
-
-
-def polygons_of(shape: shapely.Geometry) -> shapely.Geometry:
-    """Keep the areas of a collection."""
-    parts = [part for part in parts_of(shape) if part.geom_type == "Polygon"]
-    return shapely.multipolygons(parts) if parts else NOTHING
 
 
 def parts_of(shape: shapely.Geometry | NDArray[np.object_]) -> NDArray[np.object_]:
     """List all simple parts of nested collections."""
-    parts = np.atleast_1d(shapely.get_parts(shape))
+    return numbered_parts(shape)[0]
+
+
+def numbered_parts(
+    shape: shapely.Geometry | NDArray[np.object_],
+) -> tuple[NDArray[np.object_], NDArray[np.intp]]:
+    """List all simple parts of nested collections, and the number of the shape that each is a part of."""
+    parts, owners = shapely.get_parts(shape, return_index=True)
     while (shapely.get_type_id(parts) >= shapely.GeometryType.MULTIPOINT).any():
-        parts = shapely.get_parts(parts)
-    return parts
+        parts, inner = shapely.get_parts(parts, return_index=True)
+        owners = owners[inner]
+    return parts, owners
 
 
 def polylines_of(shape: shapely.Geometry) -> list[Polyline]:

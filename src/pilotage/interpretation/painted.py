@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from pilotage.interpretation.floors import is_floor
-from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.paint import Seen, shapes_of
 from pilotage.interpretation.sheet import BLACK, Pen, Role, Sheet
 from pilotage.interpretation.view import View
 
@@ -33,7 +33,7 @@ def find_painted_rooms(view: View) -> list[int]:
     """
     fills = [mark for mark in view.visible if is_pale_fill(view, mark)]
     own = {mark.number for mark in fills}
-    others = [mark.shape for mark in view.visible if mark.number not in own]
+    others = [mark for mark in view.visible if mark.number not in own]
     if not others:
         return sorted(own)
     written = [*view.sheet.texts, *view.lettering]
@@ -47,8 +47,8 @@ def find_painted_rooms(view: View) -> list[int]:
         return []
     if shapely.area(named).sum() < COVERING * shapely.convex_hull(shapely.union_all(named)).area:
         return []
-    reach = BESIDE * view.diagonal
-    walls = shapely.union_all(shapely.buffer(others, reach, quad_segs=2))  # of the union it takes far longer
+    beside = shapely.buffer(shapes_of(others).ravel(), BESIDE * view.diagonal, quad_segs=2)
+    walls = shapely.union_all(beside)  # a buffer of the union would take far longer
     outlines = shapely.boundary(named)
     walled = shapely.length(shapely.intersection(outlines, walls)) / shapely.length(outlines)
     return sorted(own) if float(np.median(walled)) < WALLED else []

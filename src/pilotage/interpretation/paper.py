@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pilotage.geometry import Polyline, signed_area
+from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Sheet
 
 ROUNDING = 1e-6
@@ -42,7 +42,7 @@ def find_paper(sheet: Sheet, drawn: Sequence[int]) -> Paper:
     """
     sheets: list[int] = []
     ground = sheet.background
-    bounds = [bounds_of(mark) for mark in sheet.marks]
+    bounds = [(left, low, right, high) for left, low, right, high in boxes_of(sheet.marks).tolist()]
     for place, number in enumerate(drawn[:-1]):
         mark = sheet.marks[number]
         covering = sheet.page is not None and share_within(sheet.page, bounds[number]) >= COVERING
@@ -81,9 +81,18 @@ def difference(first: Color, second: Color) -> float:
 
 def bounds_of(mark: Mark) -> Bounds:
     """Return left, bottom, right and top of a mark."""
-    points = np.vstack([outline.vertices for outline in mark.outlines])
-    (left, bottom), (right, top) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    left, bottom, right, top = boxes_of([mark])[0].tolist()
     return left, bottom, right, top
+
+
+def boxes_of(marks: Sequence[Mark]) -> Array:
+    """Return left, bottom, right and top of each mark, (n, 4)."""
+    if not marks:
+        return np.empty((0, 4))
+    points = np.concatenate([outline.vertices for mark in marks for outline in mark.outlines])
+    counts = [sum(map(len, mark.outlines)) for mark in marks]
+    firsts = np.cumsum([0, *counts[:-1]])
+    return np.hstack([np.minimum.reduceat(points, firsts), np.maximum.reduceat(points, firsts)])
 
 
 def holds(outer: Bounds, inner: Bounds) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Array
-from pilotage.interpretation.paint import Seen, united
+from pilotage.interpretation.paint import Seen, shapes_of
 from pilotage.interpretation.pieces import straight
 
 
@@ -31,7 +31,8 @@ class Segments:
 
 def segments_of(seen: Sequence[Seen]) -> Segments:
     """Take all lines and borders of areas apart."""
-    borders = [
-        mark.line if mark.area.is_empty else united(shapely.boundary(mark.area), mark.line) for mark in seen
-    ]
-    return Segments(straight(np.array(borders, dtype=object)))
+    lines, areas = shapes_of(seen)
+    borders = np.where(shapely.is_empty(areas), lines, shapely.boundary(areas))
+    both = ~(shapely.is_empty(areas) | shapely.is_empty(lines))
+    borders[both] = shapely.union(borders[both], lines[both])
+    return Segments(straight(borders))

@@ -11,7 +11,7 @@ import numpy as np
 from pilotage.interpretation.glyphs import TALLEST, find_glyphs
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at
-from pilotage.interpretation.paper import Paper, bounds_of, find_paper
+from pilotage.interpretation.paper import Paper, boxes_of, find_paper
 from pilotage.interpretation.sheet import Role, Sheet, Text
 
 CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
@@ -43,11 +43,11 @@ class View:
         In which direction it reads is not known; the angle is not a number.
         """
         named = {mark.number for mark in self.visible if self.role(mark) is Role.LABEL}
-        letters = [self.sheet.marks[number] for number in sorted(self.letters | named)]
-        boxes = [bounds_of(letter) for letter in letters if letter.fill is not None]
+        marks = [self.sheet.marks[number] for number in sorted(self.letters | named)]
+        boxes = boxes_of([mark for mark in marks if mark.fill is not None])
         return [
             Text("", ((left + right) / 2.0, (bottom + top) / 2.0), height, math.nan)
-            for left, bottom, right, top in boxes
+            for left, bottom, right, top in boxes.tolist()
             if (height := min(right - left, top - bottom)) <= TALLEST * self.diagonal
         ]
 
@@ -102,5 +102,5 @@ def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:
     """Measure the diagonal of some marks."""
     if not drawn:
         return 0.0
-    boxes = np.array([bounds_of(sheet.marks[number]) for number in drawn])
+    boxes = boxes_of([sheet.marks[number] for number in drawn])
     return float(np.hypot(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0))))

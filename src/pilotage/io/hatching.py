@@ -51,8 +51,9 @@ def hatchings(marks: Sequence[Mark]) -> dict[Key, list[int]]:
         if mark.fill is None and mark.pen is not None and mark.pen.width > 0.0 and len(mark.outlines) == 1:
             points = mark.outlines[0].vertices
             if len(points) == 2 and not mark.pen.dashed:
-                dx, dy = (points[1] - points[0]).tolist()
-                found[mark.pen, round(math.degrees(math.atan2(dy, dx))) % 180].append(k)
+                (x, y), (end_x, end_y) = points.tolist()
+                angle = math.degrees(math.atan2(end_y - y, end_x - x))
+                found[mark.pen, round(angle) % 180].append(k)
     return found
 
 

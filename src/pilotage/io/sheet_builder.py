@@ -1,5 +1,6 @@
 """Collect what a reader finds into a Sheet, within bounds."""
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -147,10 +148,11 @@ def outline_through(points: ArrayLike, *, closed: bool = False) -> Polyline | No
            [1., 1.]]), closed=True)
     """
     vertices = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+    if len(vertices) == 2:  # most shapes of large drawings
+        first, last = vertices.tolist()
+        return Polyline(vertices) if first != last and math.isfinite(sum(first) + sum(last)) else None
     if len(vertices) < 2 or not np.isfinite(vertices).all():
         return None
-    if len(vertices) == 2:  # most shapes of large drawings
-        return None if (vertices[0] == vertices[1]).all() else Polyline(vertices)
     grain = SAME_POINT * float((vertices.max(axis=0) - vertices.min(axis=0)).max())
     moves = np.abs(vertices[1:] - vertices[:-1]).max(axis=1) > grain
     if not moves.all():

@@ -89,7 +89,7 @@ def paint_of(handle: Handle) -> tuple[Color | None, Color | None, bool]:
 
 def color_of(handle: Handle, read: Callable[..., int]) -> Color | None:
     """Return a color as it looks on white paper; None if it is transparent."""
-    red, green, blue, alpha = (ctypes.c_uint() for _ in range(4))
+    red, green, blue, alpha = ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint()
     if not read(handle, red, green, blue, alpha) or alpha.value == 0:
         return None
     return on_paper((red.value, green.value, blue.value), alpha.value / 255.0)
