@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.geometry import Array
 from pilotage.interpretation.leaves import is_straight
@@ -76,22 +77,24 @@ def find_dimensions(
         if mark.number not in named
         for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
-    signs = [
-        (outline.key, extent, tip)
-        for outline in outlines
-        for tip in tips_of(outline.vertices)
-        if (extent := float(np.ptp(outline.vertices, axis=0).max())) <= SIGN * diagonal
-    ]
+    lines = measured_lines(outlines, texts, diagonal)
+    if not lines:
+        return set()
+    tips, owners = tips_of(outlines)
+    tree = shapely.STRtree(shapely.points(tips))
+    heavy = max(outline.pen for outline in outlines)
     found: set[tuple[int, int]] = set()
-    tree = shapely.STRtree(shapely.points([tip for *_, tip in signs])) if signs else shapely.STRtree([])
-    heavy = max((outline.pen for outline in outlines), default=0.0)
-    for line, text in measured_lines(outlines, texts, diagonal):
+    for line, text in lines:
         ends = line.vertices[[0, -1]]
-        most = SHORT * float(np.hypot(*(ends[1] - ends[0])))
-        near = tree.query(shapely.points(ends), predicate="dwithin", distance=AT * diagonal).T.tolist()
-        small = [(end, signs[place][0]) for end, place in near if signs[place][1] <= most]
-        if {end for end, _ in small} == {0, 1}:
-            found |= {line.key, *(sign for _, sign in small)}
+        most = min(SHORT * float(np.hypot(*(ends[1] - ends[0]))), SIGN * diagonal)
+        which, near = tree.query(shapely.points(ends), predicate="dwithin", distance=AT * diagonal)
+        signs = [
+            (end, outlines[place].key)
+            for end, place in zip(which.tolist(), owners[near].tolist(), strict=True)
+            if np.ptp(outlines[place].vertices, axis=0).max() <= most
+        ]
+        if {end for end, _ in signs} == {0, 1}:
+            found |= {line.key, *(sign for _, sign in signs)}
         elif text.text and line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
             found.add(line.key)
     counts = Counter(number for number, _ in found)
@@ -122,16 +125,25 @@ def measured_lines(
     return [(lines[rank], text) for rank, text in along.items() if is_straight(lines[rank].vertices)]
 
 
-def tips_of(points: Array) -> list[Array]:
-    """List where a small outline (n, 2) can end a line: amid a tick, at the corners of an arrowhead.
+def tips_of(outlines: Sequence[Outline]) -> tuple[Array, NDArray[np.int64]]:
+    """List where outlines can end a line, (n, 2), and the place of each, (n,).
 
-    The jamb of a door begins where the face of its wall ends, and a column has four corners.
+    It is amid a tick, and at the corners of an arrowhead. The jamb of a door begins where the face of its
+    wall ends, and a column has four corners.
     """
-    if len(points) > 3 and not (points[0] != points[-1]).any():
-        points = points[:-1]
-    if len(points) == 2:
-        return [points.mean(axis=0)]
-    return list(points) if len(points) == 3 else []
+    ticks = [place for place, outline in enumerate(outlines) if len(outline.vertices) == 2]
+    middles = np.array([outlines[place].vertices for place in ticks]).reshape(-1, 2, 2).mean(axis=1)
+    heads = [(place, corners) for place, one in enumerate(outlines) if len(corners := corners_of(one)) == 3]
+    corners = np.array([corners for _, corners in heads]).reshape(-1, 2)
+    owners = np.array([*ticks, *np.repeat([place for place, _ in heads], 3)], dtype=np.int64)
+    return np.concatenate([middles, corners]), owners
+
+
+def corners_of(outline: Outline) -> Array:
+    """Return the vertices of an outline; the first may be written again."""
+    points = outline.vertices
+    closes = len(points) == 4 and not (points[0] != points[-1]).any()
+    return points[:-1] if closes else points
 
 
 def stands_amid(text: Text, ends: Array) -> bool:
