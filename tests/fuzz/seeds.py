@@ -20,6 +20,8 @@ SVG = """<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" xmlns:xlin
 <use xlink:href="#door" x="50" y="20"/><rect id="goal" x="120" y="20" width="4" height="4" rx="1"/>
 <circle class="start" cx="20" cy="30" r="2"/><ellipse cx="70" cy="20" rx="4" ry="2"/>
 <text x="20" y="20" font-size="5">off<tspan dy="6">ice</tspan></text>
+<flowRoot font-size="4"><flowRegion><rect x="80" y="20" width="20" height="9"/></flowRegion>
+<flowPara>hall</flowPara></flowRoot>
 <clipPath id="cut"><rect width="65" height="40"/></clipPath>
 <g class="furniture" clip-path="url(#cut)"><polygon points="60,10 70,10 70,15"/></g></svg>"""
 
@@ -77,6 +79,8 @@ ESTIMATES = """{"stamp": 0.5, "scale": 20.0, "x": 1, "hypotheses": [{"cell": "c1
 
 CONTENT = b"""0 0 0 rg 0 0 0 RG 2 w 10 10 150 50 re S 60 10 m 60 30 l S 60 40 m 60 60 l S
 q 1 0 0 1 5 5 cm 0.5 g 100 20 10 10 re f Q BT /F1 8 Tf 20 30 Td (Kitchen) Tj ET
+80 5 m 83 5 l 83 6 l 80 6 l 86 5 m 89 5 l 89 6 l 86 6 l
+92 5 m 95 5 l 95 6 l 92 6 l 98 5 m 101 5 l 101 6 l 98 6 l f
 1 0 0 1 0 0 cm 3 4 5 6 7 8 c S"""
 
 FONT = b"<< /Font << /F1 << /Type /Font /Subtype /Type1 /BaseFont /Helvetica >> >> >>"

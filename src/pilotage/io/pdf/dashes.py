@@ -36,7 +36,7 @@ def dashed_lines(outlines: Sequence[Polyline]) -> tuple[tuple[Polyline, ...], fl
     skew = np.abs(corners[:, 2] - corners[:, 1] - across).max(axis=1)
     is_box = (skew <= UNEVEN * widths) & (np.abs((along * across).sum(axis=1)) <= UNEVEN * lengths * widths)
     width, length = float(np.median(widths)), float(np.median(lengths))
-    is_even = is_box & (np.abs(widths - width) <= UNEVEN * width)
+    is_even = is_box & (lengths > 0.0) & (widths > 0.0) & (np.abs(widths - width) <= UNEVEN * width)
     if not is_even.all() or np.mean(np.abs(lengths - length) <= UNEVEN * length) < MOSTLY:
         return None
     goes_on = follows(starts, ends)

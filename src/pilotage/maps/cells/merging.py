@@ -215,8 +215,8 @@ def is_open_floor(tessellation: Tessellation, regions: NDArray[np.int64], drawn:
     joined = rustworkx.PyGraph()
     joined.add_nodes_from(range(len(areas)))
     joined.add_edges_from_no_data([(first, second) for first, second in borders.sides.tolist()])
-    largest = max(float(areas[sorted(part)].sum()) for part in rustworkx.connected_components(joined))
-    hangs_together = largest > (1.0 - FEW_DOORS) * areas.sum()
+    parts = [float(areas[sorted(part)].sum()) for part in rustworkx.connected_components(joined)]
+    hangs_together = max(parts, default=0.0) > (1.0 - FEW_DOORS) * areas.sum()
     return bool(hangs_together and np.count_nonzero(borders.is_door) < FEW_DOORS * len(borders.is_door))
 
 
