@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
 from pilotage.io import open_map
@@ -11,6 +14,7 @@ from pilotage.io.picture.arcs import Arc, fit_arc, with_leaf
 from pilotage.io.picture.bars import part_bars
 from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.join import join_straight
+from pilotage.io.picture.width import deeper_than, depth_of
 from pilotage.maps import DecompositionSettings, decompose
 
 WHITE, BLACK, BLUE, GREEN = (255, 255, 255), (0, 0, 0), (160, 190, 230), (140, 200, 160)
@@ -238,3 +242,11 @@ def test_walls_may_have_a_hue_beside_black_furniture(walls):
     areas = [mark.outlines[0] for mark in sheet_of(colors_of(picture)).marks if mark.fill is not None]
 
     assert pytest.approx(2.0 * (800 + 600), rel=0.01) == max(outline.length for outline in areas)
+
+
+@given(
+    arrays(np.bool_, array_shapes(min_dims=2, max_dims=2, max_side=15), elements=st.booleans()),
+    st.integers(1, 60),
+)
+def test_ink_is_deeper_than_a_distance_where_its_edge_is_farther(ink, quarters):
+    assert np.array_equal(deeper_than(ink, quarters / 4.0), depth_of(ink) > quarters / 4.0)

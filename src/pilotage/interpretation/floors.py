@@ -31,17 +31,17 @@ def floor_edges(
     """Return the edges of the floors that walls stand on, where there is no wall over more than a gap."""
     if floors.is_empty or walls.is_empty:
         return NOTHING
-    paved = shapely.buffer(shapely.union(floors, walls), thickness, join_style="mitre")
-    paved = shapely.buffer(paved, -thickness, join_style="mitre")
-    paved = shapely.union_all(
-        [part for part in parts_of(paved) if shapely.intersection(part, walls).area > 0.0]
-    )
     reached = shapely.buffer(floors, thickness, join_style="mitre")
     parts = parts_of(walls)
     touching = shapely.area(parts[shapely.intersects(parts, floors)]).sum()
     carried = shapely.intersection(walls, reached).area
     if carried < CARRIED * touching or touching < MOST * walls.area:
         return NOTHING
+    paved = shapely.buffer(shapely.union(floors, walls), thickness, join_style="mitre")
+    paved = shapely.buffer(paved, -thickness, join_style="mitre")
+    paved = shapely.union_all(
+        [part for part in parts_of(paved) if shapely.intersection(part, walls).area > 0.0]
+    )
     if paved.area > SITE * shapely.convex_hull(walls).area:
         return NOTHING
     body = shapely.buffer(walls, BESIDE * thickness, join_style="mitre")

@@ -60,7 +60,7 @@ SCRIBBLE = 0.125
 """Of pieces that are shorter than this share of a wall's thickness, one for each such square is enough."""
 
 COARSE = 0.05
-"""Lines are rounded to this share of a gap to see what they enclose."""
+"""Lines and outlines are rounded to this share of a gap or thickness, to see what they enclose or hold."""
 
 ENCLOSING = 0.2
 """Painted solids are the walls of a plan if they enclose this share of what all lines enclose."""
@@ -107,6 +107,7 @@ def measured_walls(solid: shapely.Geometry) -> tuple[Array, Array]:
 
 def open_shares(parts: NDArray[np.object_], thickness: float) -> Array:
     """Tell which shares of areas are thicker than this, (n,)."""
+    parts = shapely.simplify(parts, COARSE * thickness)  # an outline in a photo has thousands of vertices
     inner = shapely.buffer(parts, -thickness / 2.0, join_style="mitre")
     opened = shapely.buffer(inner, thickness / 2.0, join_style="mitre")
     return np.asarray(shapely.area(opened) / shapely.area(parts))

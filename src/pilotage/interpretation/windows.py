@@ -3,7 +3,7 @@
 import shapely
 
 from pilotage.interpretation.paint import parts_of
-from pilotage.interpretation.solids import HAIR, extent
+from pilotage.interpretation.solids import COARSE, HAIR, extent
 
 
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
@@ -50,6 +50,7 @@ def windows(
 
 def building(walls: shapely.Geometry, gap: float) -> shapely.Geometry:
     """Return all that lies within the outer walls, openings up to a gap wide closed."""
-    grown = shapely.buffer(parts_of(walls), gap / 2.0, quad_segs=2)
+    coarse = shapely.simplify(parts_of(walls), COARSE * gap)
+    grown = shapely.buffer(coarse, gap / 2.0, quad_segs=2)
     outlines = [shapely.Polygon(part.exterior) for part in parts_of(shapely.union_all(grown))]
     return shapely.buffer(shapely.union_all(outlines), -gap / 2.0, join_style="mitre")

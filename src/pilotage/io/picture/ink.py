@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage.io.picture.colors import brightest
+
 Mask = NDArray[np.bool_]
 
 LEAST_CONTRAST = 0.12
@@ -42,7 +44,7 @@ def find_ink(flat: NDArray[np.float32]) -> Ink:
     from scipy.ndimage import binary_dilation
     from skimage.filters import threshold_otsu
 
-    contrast = 1.0 - flat.min(axis=2)
+    contrast = brightest(1.0 - flat)
     drawn = contrast[contrast > LEAST_CONTRAST]
     if not drawn.size or float(np.ptp(drawn)) == 0.0:
         return Ink(contrast > LEAST_CONTRAST, ruled=False)

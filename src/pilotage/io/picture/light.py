@@ -27,10 +27,11 @@ def flatten(colors: NDArray[np.float32], *, is_photo: bool) -> NDArray[np.float3
     """
     from scipy.ndimage import gaussian_filter
 
-    if float(np.median(colors)) < DARK_PAPER * float(np.quantile(colors[::4, ::4], 0.995)):
+    some = colors[::4, ::4]
+    if float(np.median(some)) < DARK_PAPER * float(np.quantile(some, 0.995)):
         colors = 1.0 - colors
     radius = max(2, round(PEN * float(np.hypot(*colors.shape[:2]))))
-    flat = np.empty_like(colors)
+    flat = np.moveaxis(np.empty((3, *colors.shape[:2]), dtype=np.float32), 0, 2)  # each channel in one piece
     for channel in range(3):
         if channel and np.array_equal(colors[..., channel], colors[..., channel - 1]):  # a gray picture
             flat[..., channel] = flat[..., channel - 1]

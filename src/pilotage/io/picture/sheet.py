@@ -80,7 +80,7 @@ def resized(colors: NDArray[np.float32]) -> tuple[float, NDArray[np.float32]]:
     factor = min(2.0, float(np.sqrt(MOST / (height * width))))
     size = (round(factor * width), round(factor * height))
     between = Image.Resampling.BICUBIC if factor > 1.0 else Image.Resampling.BOX
-    working = np.empty((size[1], size[0], 3), dtype=np.float32)
+    working = np.moveaxis(np.empty((3, *size[::-1]), dtype=np.float32), 0, 2)  # each channel in one piece
     for k in range(3):
         channel = Image.fromarray(colors[..., k]).resize(size, between)
         np.clip(np.asarray(channel), 0.0, 1.0, out=working[..., k])

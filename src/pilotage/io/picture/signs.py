@@ -62,7 +62,7 @@ def uncovered(flat: NDArray[np.float32]) -> NDArray[np.float32]:
     if not signs.any():
         return flat
     black = (lightest < DARK) & ~colored
-    result = flat.copy()
+    result = flat.copy(order="K")
     margin = round(MOST * diagonal / 4.0) + EDGE
     for sign in regionprops(label(signs, connectivity=2)):
         top, left = (max(0, edge - margin) for edge in sign.bbox[:2])

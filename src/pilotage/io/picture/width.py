@@ -76,18 +76,33 @@ def fat_parts(ink: Mask, width: float) -> Mask:
 
     Where two lines cross they are wide, too, but over no length.
     """
-    from scipy.ndimage import maximum_filter, minimum_filter
+    from scipy.ndimage import maximum_filter
     from skimage.measure import label, regionprops
 
-    within = min(
-        width / 2.0 / np.sqrt(2.0), float(max(ink.shape))
-    )  # half of a square in a disc of this width
-    if not minimum_filter(ink, 2 * int(within) + 1).any():  # most colors are rims: no distances are needed
-        return np.zeros_like(ink)
-    core = depth_of(ink) > width / 2.0
+    core = deeper_than(ink, width / 2.0)
     labels = label(core, connectivity=2)
     long = [max(part.image.shape) > width for part in regionprops(labels)]
     if not any(long):
         return np.zeros_like(ink)
     core = np.concatenate([[False], long])[labels]
     return np.asarray(ink & maximum_filter(core, 2 * int(np.ceil(width / 2.0)) + 3))
+
+
+def deeper_than(ink: Mask, depth: float) -> Mask:
+    """Mark ink that is farther than this from its edge [pixels], (height, width).
+
+    With `depth_of` it would take five times as long: paper is shifted by all that lies within a disc instead.
+    """
+    if depth >= max(ink.shape):
+        return np.zeros_like(ink)
+    reach = int(depth)
+    paper = np.pad(~ink, reach + 1, constant_values=True)
+    near, wide, half = np.zeros_like(paper), paper.copy(), 0
+    for rows in range(reach, -1, -1):  # the disc is a row of pixels more than 2 `half` wide, so many rows off
+        while (half + 1) ** 2 + rows**2 <= depth**2:
+            half += 1
+            wide[:, half:] |= paper[:, :-half]
+            wide[:, :-half] |= paper[:, half:]
+        near[rows:] |= wide[: len(wide) - rows]
+        near[: len(near) - rows] |= wide[rows:]
+    return np.asarray(~near[reach + 1 : -reach - 1, reach + 1 : -reach - 1])
