@@ -14,7 +14,7 @@ from pilotage.io.picture.arcs import Arc, fit_arc, with_leaf
 from pilotage.io.picture.bars import part_bars
 from pilotage.io.picture.ink import find_ink
 from pilotage.io.picture.join import join_straight
-from pilotage.io.picture.width import deeper_than, depth_of
+from pilotage.io.picture.width import deeper_than, depth_of, fat_parts
 from pilotage.maps import DecompositionSettings, decompose
 
 WHITE, BLACK, BLUE, GREEN = (255, 255, 255), (0, 0, 0), (160, 190, 230), (140, 200, 160)
@@ -250,3 +250,17 @@ def test_walls_may_have_a_hue_beside_black_furniture(walls):
 )
 def test_ink_is_deeper_than_a_distance_where_its_edge_is_farther(ink, quarters):
     assert np.array_equal(deeper_than(ink, quarters / 4.0), depth_of(ink) > quarters / 4.0)
+
+
+@pytest.mark.parametrize("slender", [1.0, 3.0])
+def test_a_ragged_line_is_an_area_nowhere_but_a_wall_is_with_its_short_ends(slender):
+    ink = np.zeros((60, 200), dtype=bool)
+    ink[10:13, 10:190] = True  # a line, wider over a short piece
+    ink[9:14, 90:98] = True
+    ink[30:45, 10:175] = True  # a wall, and the short end of one
+    ink[30:45, 185:200] = True
+    fat = fat_parts(ink, 4.0, slender)
+
+    assert fat[:20].any() == (slender == 1.0)
+    assert fat[37, 10:175].all()
+    assert fat[37, 192]

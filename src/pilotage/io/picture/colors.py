@@ -39,8 +39,8 @@ def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[l
     lightest, darkest = brightest(flat), 1.0 - brightest(1.0 - flat)
     dark = lightest < DARK
     colored = lightest - darkest >= COLORED * (1.0 - darkest)
-    black, deep = (fat_parts(ink & dark & hue, widths.dark) for hue in (~colored, colored))
-    gray, light = (fat_parts(ink & ~dark & hue, widths.pale) for hue in (~colored, colored))
+    black, deep = (fat_parts(ink & dark & hue, widths.dark, widths.slender) for hue in (~colored, colored))
+    gray, light = (fat_parts(ink & ~dark & hue, widths.pale, widths.slender) for hue in (~colored, colored))
     drawn = np.count_nonzero(black | gray)
     rest = np.count_nonzero(deep | light)
     if (
@@ -48,7 +48,7 @@ def fat_ink(ink: Mask, flat: NDArray[np.float32], widths: AreaWidths) -> tuple[l
         and drawn >= WALLS * (drawn + rest)
         and (not rest or encloses(ink & dark & ~colored | gray, ink))
     ):
-        return [gray, black], fat_parts(ink & colored, widths.dark)
+        return [gray, black], fat_parts(ink & colored, widths.dark, widths.slender)
     return [gray, light, black, deep], np.zeros_like(ink)
 
 

@@ -1,6 +1,6 @@
 """From a picture to a sheet of marks."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from pilotage.io.picture.photo import find_paper, is_photo, straighten
 from pilotage.io.picture.signs import uncovered
 from pilotage.io.picture.text import find_words
 from pilotage.io.picture.trace import Area, Line, trace
-from pilotage.io.picture.width import area_widths, depth_of, width_at
+from pilotage.io.picture.width import SLENDER, area_widths, depth_of, width_at
 
 MOST = 2_750_000
 """A picture of more pixels than this is made smaller, and none is made larger than this."""
@@ -58,6 +58,7 @@ def sheet_of(colors: NDArray[np.float32], source: str = "") -> Sheet:
     words = find_words(ink.mask, middle, pen_width)
     drawn = ink.mask & ~words.mask
     wide = area_widths(width_at(depth[middle & drawn]), pen_width, float(np.hypot(*drawn.shape)))
+    wide = wide if photo else replace(wide, slender=SLENDER)
     areas, lines = trace(drawn, flat, depth, pen_width, wide)
     plane = Plane(scale, corner)
     return Sheet(

@@ -23,6 +23,10 @@ EACH = 0.1
 THINNEST = 3.5
 """A thick line is wider than this [pixels]: below it widths cannot be told."""
 
+SLENDER = 3.0
+"""In a clean picture what is hardly wide enough for an area is so over this many widths: arcs and slanted
+lines have ragged edges, and are wider here and there. In a photo noise parts walls, too."""
+
 
 def depth_of(ink: Mask) -> NDArray[np.float32]:
     """Measure how far ink is from its edge [pixels], (height, width)."""
@@ -51,6 +55,7 @@ class AreaWidths:
 
     dark: float
     pale: float  # infinite if there are none; a blurred line is pale, and wider than it was drawn
+    slender: float = 1.0  # how long what is hardly so wide must be, in these widths
 
 
 def area_widths(widths: NDArray[np.float32], pen_width: float, diagonal: float) -> AreaWidths:
@@ -71,17 +76,22 @@ def area_widths(widths: NDArray[np.float32], pen_width: float, diagonal: float) 
     return AreaWidths(float(np.exp(between)) if two_pens else fat, fat)
 
 
-def fat_parts(ink: Mask, width: float) -> Mask:
+def fat_parts(ink: Mask, width: float, slender: float = 1.0) -> Mask:
     """Mark ink that is wider than this [pixels] over more than its own width, (height, width).
 
-    Where two lines cross they are wide, too, but over no length.
+    Where two lines cross they are wide, too, but over no length. What is nowhere twice as wide must be so
+    over more than `slender` widths.
     """
     from scipy.ndimage import maximum_filter
     from skimage.measure import label, regionprops
 
     core = deeper_than(ink, width / 2.0)
     labels = label(core, connectivity=2)
-    long = [max(part.image.shape) > width for part in regionprops(labels)]
+    twice = np.bincount(labels[deeper_than(ink, width)], minlength=labels.max() + 1)[1:] > 0
+    long = [
+        max(part.image.shape) > (1.0 if is_twice else slender) * width
+        for part, is_twice in zip(regionprops(labels), twice, strict=True)
+    ]
     if not any(long):
         return np.zeros_like(ink)
     core = np.concatenate([[False], long])[labels]
