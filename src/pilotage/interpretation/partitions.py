@@ -27,7 +27,7 @@ def find_partitions(
     lines: shapely.Geometry, solid: shapely.Geometry, doors: Sequence[Door], width: float
 ) -> shapely.Geometry:
     """Find lines outside solids that part one room from the next."""
-    body = shapely.buffer(solid, TOUCHING * width, join_style="mitre")
+    body = shapely.make_valid(shapely.buffer(solid, TOUCHING * width, join_style="mitre"))
     loose = outside(lines, body)
     if loose.is_empty:
         return NOTHING
