@@ -15,16 +15,16 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.maps.cells.tessellation import Tessellation
 
-NARROWING = 1.5
+NARROWING = 1.42
 """Both sides are this many times as wide as the opening: a door. Where two corridors cross, free space is
-sqrt(2) times as wide as they are, a little more if they are drawn unevenly, and that is none."""
+sqrt(2) times as wide as they are, and that is none."""
 
 MOUTH, MOUTH_DEPTH = 1.8, 0.3
 """Or one side is this many times as wide, and the smaller side has this area, in squares over the opening."""
 
-FEW_DOORS, OPEN_MOUTH = 1 / 8, 1.42
+FEW_DOORS = 1 / 8
 """On an open floor a smaller share of all openings are doors, and of its area closed off. There it is a mouth
-if one side is so many times as wide."""
+if only one side is as much wider as both are at a door."""
 
 JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
 """Or free space widens this many times beside it, with a lower narrowing and this area: a wide door."""
@@ -202,7 +202,7 @@ def merge_pieces(
         return found.merged()
 
     if not solids_known:
-        finely = regions(OPEN_MOUTH)
+        finely = regions(NARROWING)
         if is_open_floor(tessellation, finely, drawn):
             return finely
     return regions(MOUTH)
