@@ -17,7 +17,8 @@ from pilotage.maps.cells.free_space import (
 )
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.cells.identity import identify
-from pilotage.maps.cells.merging import drop_small, join_corridors, join_thresholds, merge_pieces
+from pilotage.maps.cells.joining import drop_small, join_corridors, join_thresholds
+from pilotage.maps.cells.merging import merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 

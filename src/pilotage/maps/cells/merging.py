@@ -5,39 +5,28 @@ An opening separates two cells if it narrows, has depth behind it, or stands bet
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import rustworkx
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.geometry import Array
+from pilotage.maps.cells.borders import JAMBS, NARROWING, borders_of, region_areas
 from pilotage.maps.cells.tessellation import Tessellation
 
-NARROWING = 1.42
-"""Both sides are this many times as wide as the opening: a door. Where two corridors cross, free space is
-sqrt(2) times as wide as they are, and that is none."""
-
 MOUTH, MOUTH_DEPTH = 1.8, 0.3
-"""Or one side is this many times as wide, and the smaller side has this area, in squares over the opening."""
+"""No door, but a mouth: one side is this many times as wide, and the smaller one has this area, in squares
+over the opening."""
 
 FEW_DOORS = 1 / 8
 """On an open floor a smaller share of all openings are doors, and of its area closed off. There it is a mouth
 if only one side is as much wider as both are at a door."""
 
-JAMBS, JAMBS_NARROWING, JAMBS_DEPTH = 1.25, 1.1, 0.6
-"""Or free space widens this many times beside it, with a lower narrowing and this area: a wide door."""
-
-THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
-"""A threshold is no deeper than its doors are wide, and these are this share of its own width."""
+JAMBS_NARROWING, JAMBS_DEPTH = 1.1, 0.6
+"""A wide door stands between jambs, with a lower narrowing and this area."""
 
 COLUMN = 0.5
 """What parts two openings is a column, no wall, if it is no wider than this share of one of them."""
-
-CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
-"""A corridor leads on where its wider side is less than so many times as wide as the opening, and the opening
-less than so many doors wide."""
 
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
@@ -209,7 +198,10 @@ def merge_pieces(
 
 
 def is_open_floor(tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]) -> bool:
-    """Tell whether rooms open to each other, with hardly a door."""
+    """Tell whether rooms open to each other, with hardly a door.
+
+    `regions` is the region of each piece, (p,); `drawn` tells which chords are doors that are drawn, (n,).
+    """
     borders = borders_of(tessellation, regions, drawn)
     areas = region_areas(tessellation, regions)
     joined = rustworkx.PyGraph()
@@ -218,98 +210,3 @@ def is_open_floor(tessellation: Tessellation, regions: NDArray[np.int64], drawn:
     parts = [float(areas[sorted(part)].sum()) for part in rustworkx.connected_components(joined)]
     hangs_together = max(parts, default=0.0) > (1.0 - FEW_DOORS) * areas.sum()
     return bool(hangs_together and np.count_nonzero(borders.is_door) < FEW_DOORS * len(borders.is_door))
-
-
-def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it."""
-    joined = regions.copy()
-    areas = region_areas(tessellation, regions)
-    sides = regions[tessellation.sides]
-    for number in np.flatnonzero(areas > 0.0):
-        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
-        widths = tessellation.widths[beside]
-        others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
-        if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
-            continue
-        if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[regions == number].max():
-            joined[regions == number] = others[np.argmax(areas[others])]
-    return joined
-
-
-def join_corridors(
-    tessellation: Tessellation,
-    regions: NDArray[np.int64],
-    named: NDArray[np.bool_],
-    drawn: NDArray[np.bool_],
-) -> NDArray[np.int64]:
-    """Join the pieces of corridors: what leads on through an opening as wide as itself, without a door.
-
-    Where walls have a thickness a door shows as a narrowing of both sides, between jambs; a corridor that
-    turns, branches or widens hardly narrows, or goes on behind the opening as narrow as that. A niche leads
-    nowhere and stays what it is, and so does a wide room with a name. Two names are never joined; `named`
-    tells in which pieces (p,) one stands, and `drawn` which chords (n,) are at doors that are drawn.
-    """
-    has_name = np.zeros(len(regions), dtype=bool)
-    has_name[regions[named & (regions >= 0)]] = True
-    found = borders_of(tessellation, regions, drawn)
-    borders, openings, reaches, is_door = found.sides, found.openings, found.reaches, found.is_door
-    wide = reaches[borders].max(axis=1)
-    if not is_door.any():
-        return regions
-    door = float(np.median(openings[is_door]))
-    is_niche = (np.bincount(borders.ravel())[borders] == 1).any(axis=1) & ~is_door
-    leads_on = np.bincount(borders[~is_niche].ravel(), minlength=len(regions)) > 1
-    is_room = has_name & (reaches > CORRIDOR_WIDTH * door)
-    is_same = ~is_door & (wide < CORRIDOR_MOUTH * openings) & (openings < CORRIDOR_WIDTH * door)
-    is_same &= (leads_on & ~is_room)[borders].all(axis=1)
-    joined = np.arange(len(regions))
-    for first, second in joined[borders[is_same][np.argsort(-openings[is_same], kind="stable")]]:
-        one, other = joined[first], joined[second]
-        if one != other and not (has_name[one] and has_name[other]):
-            has_name[one] |= has_name[other]
-            joined[joined == other] = one
-    return np.where(regions >= 0, joined[regions], -1)
-
-
-@dataclass(frozen=True, eq=False)
-class Borders:
-    """The pairs of regions with openings between them."""
-
-    sides: NDArray[np.int64]  # (n, 2)
-    openings: Array  # (n,) how wide the widest of each is
-    is_door: NDArray[np.bool_]  # (n,) whether doors are drawn in all, or both sides narrow to jambs
-    reaches: Array  # how wide each region is, indexed by its number
-
-
-def borders_of(tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]) -> Borders:
-    """List the pairs of regions with openings between them."""
-    reaches = np.zeros(len(regions))
-    np.maximum.at(reaches, regions[regions >= 0], tessellation.reaches[regions >= 0])
-    sides = regions[tessellation.sides]
-    between = (sides >= 0).all(axis=1) & (sides[:, 0] != sides[:, 1])
-    pairs, owner = np.unique(np.sort(sides[between], axis=1), axis=0, return_inverse=True)
-    openings, jambs = np.zeros(len(pairs)), np.zeros(len(pairs))
-    np.maximum.at(openings, owner.ravel(), tessellation.widths[between])
-    others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(pairs))
-    widening = np.maximum(tessellation.jambs, tessellation.behind)[between]
-    np.maximum.at(jambs, owner.ravel(), widening)  # how far free space widens beside an opening
-    narrow = reaches[pairs].min(axis=1)
-    is_door = ((narrow >= NARROWING * openings) & (jambs >= JAMBS)) | (others == 0)
-    return Borders(pairs, openings, is_door, reaches)
-
-
-def drop_small(
-    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_], min_area: float
-) -> NDArray[np.int64]:
-    """Drop regions that are still too small because nothing opens to them, and have no name: -1."""
-    areas = region_areas(tessellation, regions)
-    numbers = np.flatnonzero(areas > 0.0)
-    small = numbers[areas[numbers] < min_area * areas.sum()]
-    small = np.setdiff1d(small, regions[named])
-    return np.where(np.isin(regions, small), -1, regions)
-
-
-def region_areas(tessellation: Tessellation, regions: NDArray[np.int64]) -> Array:
-    """Sum the area of each region, indexed by its number."""
-    kept = regions >= 0
-    return np.bincount(regions[kept], tessellation.areas[kept], minlength=len(regions)).astype(np.float64)

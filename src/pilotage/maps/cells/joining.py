@@ -1,0 +1,76 @@
+"""Join regions to what a person would name: thresholds, corridors; drop what is too small (decision 0010)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pilotage.maps.cells.borders import borders_of, region_areas
+from pilotage.maps.cells.tessellation import Tessellation
+
+THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
+"""A threshold is no deeper than its doors are wide, and these are this share of its own width."""
+
+CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
+"""A corridor leads on where its wider side is less than so many times as wide as the opening, and the opening
+less than so many doors wide."""
+
+
+def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it."""
+    joined = regions.copy()
+    areas = region_areas(tessellation, regions)
+    sides = regions[tessellation.sides]
+    for number in np.flatnonzero(areas > 0.0):
+        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
+        widths = tessellation.widths[beside]
+        others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
+        if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
+            continue
+        if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[regions == number].max():
+            joined[regions == number] = others[np.argmax(areas[others])]
+    return joined
+
+
+def join_corridors(
+    tessellation: Tessellation,
+    regions: NDArray[np.int64],
+    named: NDArray[np.bool_],
+    drawn: NDArray[np.bool_],
+) -> NDArray[np.int64]:
+    """Join the pieces of corridors: what leads on through an opening as wide as itself, without a door.
+
+    Where walls have a thickness a door shows as a narrowing of both sides, between jambs; a corridor that
+    turns, branches or widens hardly narrows, or goes on behind the opening as narrow as that. A niche leads
+    nowhere and stays what it is, and so does a wide room with a name. Two names are never joined; `named`
+    tells in which pieces (p,) one stands, and `drawn` which chords (n,) are at doors that are drawn.
+    """
+    has_name = np.zeros(len(regions), dtype=bool)
+    has_name[regions[named & (regions >= 0)]] = True
+    found = borders_of(tessellation, regions, drawn)
+    borders, openings, reaches, is_door = found.sides, found.openings, found.reaches, found.is_door
+    wide = reaches[borders].max(axis=1)
+    if not is_door.any():
+        return regions
+    door = float(np.median(openings[is_door]))
+    is_niche = (np.bincount(borders.ravel())[borders] == 1).any(axis=1) & ~is_door
+    leads_on = np.bincount(borders[~is_niche].ravel(), minlength=len(regions)) > 1
+    is_room = has_name & (reaches > CORRIDOR_WIDTH * door)
+    is_same = ~is_door & (wide < CORRIDOR_MOUTH * openings) & (openings < CORRIDOR_WIDTH * door)
+    is_same &= (leads_on & ~is_room)[borders].all(axis=1)
+    joined = np.arange(len(regions))
+    for first, second in joined[borders[is_same][np.argsort(-openings[is_same], kind="stable")]]:
+        one, other = joined[first], joined[second]
+        if one != other and not (has_name[one] and has_name[other]):
+            has_name[one] |= has_name[other]
+            joined[joined == other] = one
+    return np.where(regions >= 0, joined[regions], -1)
+
+
+def drop_small(
+    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_], min_area: float
+) -> NDArray[np.int64]:
+    """Drop regions that are still too small because nothing opens to them, and have no name: -1."""
+    areas = region_areas(tessellation, regions)
+    numbers = np.flatnonzero(areas > 0.0)
+    small = numbers[areas[numbers] < min_area * areas.sum()]
+    small = np.setdiff1d(small, regions[named])
+    return np.where(np.isin(regions, small), -1, regions)
