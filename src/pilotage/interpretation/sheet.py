@@ -63,7 +63,7 @@ class Text:
     text: str
     position: tuple[float, float]  # its middle [drawing units], y up
     height: float = 0.0  # of a capital letter's line [drawing units]; 0 if the file does not tell
-    angle: float = 0.0  # of the baseline [rad], counter-clockwise on the page
+    angle: float = 0.0  # of the baseline [rad], counter-clockwise on the page; nan if it is not known
     names: tuple[str, ...] = ()
     groups: tuple[int, ...] = ()
     source: str = ""
