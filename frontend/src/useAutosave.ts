@@ -46,7 +46,7 @@ export function useAutosave(content: () => string, revision: number): Autosave {
         now.current.document = { ...document, name, tag };
         setDocument(now.current.document);
         setError("");
-        setState("saved");
+        setState(now.current.changedAt ? "saving" : "saved"); // a change may have come meanwhile
       } catch (problem) {
         setError(problem instanceof Error ? problem.message : String(problem));
         const refused = problem instanceof ApiError && (problem.status === 409 || problem.status === 412);
