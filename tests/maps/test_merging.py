@@ -20,6 +20,31 @@ def test_a_row_of_columns_is_one_wide_opening():
     assert 1 == count_cells(room, *columns)
 
 
+def test_corridors_that_cross_are_one_cell_although_one_is_a_little_wider():
+    """Where corridors 2 and 2.3 wide cross, free space is 1.52 times as wide as the first."""
+    outline = [(0, 0), (34, 0), (34, 22), (0, 22), (0, 0)]
+    rooms = [
+        [(left, wall), (left + 3, wall), (left + 4, wall), (right, wall)]
+        for wall in (10, 12)
+        for left, right in ((0, 10), (12.3, 21.7), (24, 34))
+    ]
+    across = [[(x, y), (x, y + 10)] for x in (10, 12.3, 21.7, 24) for y in (0, 12)]
+
+    assert 7 == count_cells(outline, *parted(rooms), *across)
+
+
+def parted(lines):
+    """Break lines at their gaps."""
+    return [part for line in lines for part in (line[:2], line[2:])]
+
+
+def test_two_doors_of_one_room_are_no_wide_opening_between_lines():
+    rooms = [(0, 0), (20, 0), (20, 9), (0, 9), (0, 0)]
+    wall = [[(0, 4), (3, 4)], [(5, 4), (15, 4)], [(17, 4), (20, 4)]]
+
+    assert 2 == count_cells(rooms, *wall)
+
+
 def test_a_hollow_of_a_wall_belongs_to_its_room():
     window = [(0, 0), (20, 0), (20, 10), (12, 10), (12, 10.4), (9, 10.4), (9, 10), (0, 10), (0, 0)]
 

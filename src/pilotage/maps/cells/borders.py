@@ -39,8 +39,9 @@ def borders_of(tessellation: Tessellation, regions: NDArray[np.int64], drawn: ND
     openings, jambs = np.zeros(len(pairs)), np.zeros(len(pairs))
     np.maximum.at(openings, owner.ravel(), tessellation.widths[between])
     others = np.bincount(owner.ravel(), ~drawn[between], minlength=len(pairs))
-    widening = np.maximum(tessellation.jambs, tessellation.behind)[between]
-    np.maximum.at(jambs, owner.ravel(), widening)  # how far free space widens beside an opening
+    np.maximum.at(
+        jambs, owner.ravel(), tessellation.widening[between]
+    )  # how far free space widens beside an opening
     narrow = reaches[pairs].min(axis=1)
     is_door = ((narrow >= NARROWING * openings) & (jambs >= JAMBS)) | (others == 0)
     return Borders(pairs, openings, is_door, reaches)

@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 from pilotage.maps.cells.borders import JAMBS, NARROWING, borders_of, region_areas
 from pilotage.maps.cells.tessellation import Tessellation
 
+CORRIDOR_END = 1.6
+"""Without jambs, both sides are this many times as wide: where two corridors cross, free space is sqrt(2)
+times as wide as they are, and more if one is the wider."""
+
 MOUTH, MOUTH_DEPTH = 1.8, 0.3
 """No door, but a mouth: one side is this many times as wide, and the smaller one has this area, in squares
 over the opening."""
@@ -25,8 +29,9 @@ if only one side is as much wider as both are at a door."""
 JAMBS_NARROWING, JAMBS_DEPTH = 1.1, 0.6
 """A wide door stands between jambs, with a lower narrowing and this area."""
 
-COLUMN = 0.5
-"""What parts two openings is a column, no wall, if it is no wider than this share of one of them."""
+COLUMN, TABLE = 0.5, 1.5
+"""Two openings are one if what parts them is no wider than this share of one, or stands free and is no larger
+than so many times one."""
 
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
@@ -47,7 +52,6 @@ class Regions:
         min_area: float,
         *,
         mouth: float,
-        solids_known: bool,
     ) -> None:
         self.mouth = mouth
         self.least = min_area * float(tessellation.areas[among].sum())
@@ -58,9 +62,10 @@ class Regions:
         self.region_of = np.where(among, np.arange(len(among)), -1)
         self.chords_to: list[dict[int, list[int]]] = [{} for _ in among]
         self.named: list[bool] = named.tolist()
+        self.widening: list[float] = tessellation.widening.tolist()
         self.drawn: list[bool] = drawn.tolist()
         self.told: list[bool] = tessellation.told.tolist()
-        self.beside = neighbors(tessellation) if solids_known else None
+        self.beside = neighbors(tessellation)
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
             first, second = tessellation.sides[chord].tolist()
@@ -109,35 +114,40 @@ class Regions:
         return min(separation, smaller / self.least) if is_small else separation, round(separation, DIGITS)
 
     def separation(self, first: int, second: int, smaller: float) -> float:
-        """Tell how much openings separate two regions, of which the smaller has this area."""
+        """Tell how much openings separate two regions, the smaller of this area: the weakest decides."""
         chords = [chord for chord in self.chords_to[first][second] if not self.drawn[chord]]
-        if not chords:
-            return np.inf  # doors are drawn, and nothing else lies between
-        opening = self.widest_opening(chords)
-        narrow, wide = sorted((self.reaches[first], self.reaches[second]))
+        reaches = self.reaches[first], self.reaches[second]
+        return min(
+            (self.separation_at(opening, reaches, smaller) for opening in self.openings(chords)),
+            default=np.inf,  # doors are drawn, and nothing else lies between
+        )
+
+    def separation_at(self, chords: Sequence[int], reaches: tuple[float, float], smaller: float) -> float:
+        """Tell how much one opening separates two regions that are so wide, the smaller of this area."""
+        opening = sum(self.widths[chord] for chord in chords)
+        narrow, wide = sorted(reaches)
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
         jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
+        has_jambs = max(self.widening[chord] for chord in chords) >= JAMBS
         return max(
-            narrowing / NARROWING,
+            narrowing / (NARROWING if has_jambs else CORRIDOR_END),
             min(mouth / self.mouth, depth / MOUTH_DEPTH),
             min(jambs / JAMBS, narrowing / JAMBS_NARROWING, depth / JAMBS_DEPTH),
         )
 
-    def widest_opening(self, chords: Sequence[int]) -> float:
-        """Add up the widths of chords, where solids are known of those that only columns part: the most."""
-        if self.beside is None or len(chords) == 1:
-            return sum(self.widths[chord] for chord in chords)
-        left, most = set(chords), 0.0
+    def openings(self, chords: Sequence[int]) -> list[list[int]]:
+        """Put chords together that only columns part: each is an opening."""
+        left, found = set(chords), []
         while left:
-            front, total = [left.pop()], 0.0
+            front, opening = [left.pop()], []
             while front:
                 chord = front.pop()
-                total += self.widths[chord]
+                opening.append(chord)
                 beside = self.beside.get(chord, set()) & left
                 left -= beside
                 front.extend(beside)
-            most = max(most, total)
-        return most
+            found.append(opening)
+        return found
 
     def absorb(self, first: int, second: int) -> None:
         """Let the first region take in the second."""
@@ -157,16 +167,19 @@ class Regions:
 
 
 def neighbors(tessellation: Tessellation) -> dict[int, set[int]]:
-    """Find for each chord the others that no more than a column parts from it."""
+    """Find for each chord the others that no more than a column or a table parts from it."""
     lines = shapely.linestrings(tessellation.chords)
     reach = COLUMN * tessellation.widths
-    found: dict[int, set[int]] = {}
-    first, second = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
-    for one, other in zip(first.tolist(), second.tolist(), strict=True):
-        if one != other:
-            found.setdefault(one, set()).add(other)
-            found.setdefault(other, set()).add(one)
-    return found
+    pairs = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach).T
+    small = tessellation.post_sizes[tessellation.posts] <= TABLE * tessellation.widths[:, np.newaxis]
+    around: dict[int, list[int]] = {}
+    for chord, end in np.argwhere(small).tolist():
+        around.setdefault(int(tessellation.posts[chord, end]), []).append(chord)
+    beside: dict[int, set[int]] = {}
+    for chords in [*pairs.tolist(), *around.values()]:
+        for chord in chords:
+            beside.setdefault(chord, set()).update(chords)
+    return beside
 
 
 def merge_pieces(
@@ -182,12 +195,11 @@ def merge_pieces(
 
     `named` tells in which pieces (p,) a name stands: what is small is not merged into what has another name.
     `drawn` tells which chords (n,) are at doors that are drawn: these always separate.
-    Two doors beside each other are no wide opening if `solids_known`: else a hand may have broken the line,
-    and may also have drawn an open floor, with hardly a door.
+    Unless `solids_known` it may be an open floor, with hardly a door.
     """
 
     def regions(mouth: float) -> NDArray[np.int64]:
-        found = Regions(tessellation, among, named, drawn, min_area, mouth=mouth, solids_known=solids_known)
+        found = Regions(tessellation, among, named, drawn, min_area, mouth=mouth)
         return found.merged()
 
     if not solids_known:

@@ -31,6 +31,13 @@ class Tessellation:
     behind: Array  # (n,) the same where one is through the wall that it is in
     sides: NDArray[np.int64]  # (n, 2) the pieces left and right of each chord
     told: NDArray[np.bool_]  # (n,) which chords are doors that the file itself tells
+    posts: NDArray[np.int64]  # (n, 2) number of the connected walls at either end of each chord
+    post_sizes: Array  # how large the walls of a number are, along the diagonal of their box
+
+    @property
+    def widening(self) -> Array:
+        """How much wider free space is beside each chord, or behind the wall that it is in, (n,)."""
+        return np.maximum(self.jambs, self.behind)
 
     def with_chords(self, kept: NDArray[np.bool_]) -> "Tessellation":
         """Leave the other chords out: what they opened is closed."""
@@ -42,6 +49,7 @@ class Tessellation:
             behind=self.behind[kept],
             sides=self.sides[kept],
             told=self.told[kept],
+            posts=self.posts[kept],
         )
 
     def connected(self, among: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -82,7 +90,11 @@ def tessellate(walls: Array, doors: Array = NO_SEGMENTS) -> Tessellation:
     jambs = find_jambs(openings, diagram.segments)
     behind = find_jambs(openings, diagram.segments, BEHIND)
     told = cut >= len(chords.segments)
-    return Tessellation(pieces, reaches, shapely.area(pieces), openings, widths, jambs, behind, sides, told)
+    posts, post_sizes = find_posts(openings, diagram.segments)
+    areas = shapely.area(pieces)
+    return Tessellation(
+        pieces, reaches, areas, openings, widths, jambs, behind, sides, told, posts, post_sizes
+    )
 
 
 def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]:
@@ -98,6 +110,26 @@ def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]
     right = np.array(back, dtype=np.int64)
     once = (right >= 0) & (owner < right)
     return edges[once], np.column_stack([owner, right])[once]
+
+
+def find_posts(openings: Array, walls: Array) -> tuple[NDArray[np.int64], Array]:
+    """Find which walls (k, 4) hang together: the number of those at either end of openings (n, 2), and sizes.
+
+    Walls hang together if they share an end; they cross nowhere.
+    """
+    ends, numbers = np.unique(walls.reshape(-1, 2), axis=0, return_inverse=True)
+    graph = rustworkx.PyGraph()
+    graph.add_nodes_from(range(len(ends)))
+    graph.add_edges_from_no_data([(int(a), int(b)) for a, b in numbers.reshape(-1, 2)])
+    parts = sorted(sorted(part) for part in rustworkx.connected_components(graph))
+    sizes = np.array([np.hypot(*np.ptp(ends[part], axis=0)) for part in parts])
+    part_of = np.empty(len(ends), dtype=np.int64)
+    for number, part in enumerate(parts):
+        part_of[part] = number
+    nearest = shapely.STRtree(shapely.linestrings(walls.reshape(-1, 2, 2))).nearest(
+        shapely.points(openings.reshape(-1, 2))
+    )
+    return part_of[numbers.reshape(-1, 2)[nearest, 0]].reshape(-1, 2), sizes
 
 
 def on_walls(edges: Array, walls: Array, tolerance: float) -> NDArray[np.bool_]:
