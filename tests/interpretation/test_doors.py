@@ -8,7 +8,7 @@ import shapely
 from flats import BLACK, OUTSIDE, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
-from pilotage.interpretation.windows import windows
+from pilotage.interpretation.windows import panes, windows
 
 PEN = Pen(BLACK, 1.0)
 WALL = stroke((50, 0), (50, 80))
@@ -263,6 +263,33 @@ def test_what_is_named_a_window_closes_though_it_does_not_reach_the_next_wall():
     assert 19.9 < glazed.area < 24.0
     assert shut.is_empty
     assert nothing.is_empty
+
+
+@pytest.mark.parametrize(
+    ("depths", "are_panes"),
+    [((0.0, 0.7, 1.3, 2.0), True), ((0.0, 2.0), False), ((0.0, 1.5, 3.0, 4.5), False)],
+)
+def test_three_lines_or_more_within_a_wall_from_jamb_to_jamb_are_a_window(depths, are_panes):
+    wall = shapely.union_all([shapely.box(0, 0, 10, depths[-1]), shapely.box(16, 0, 30, depths[-1])])
+    lines = shapely.multilinestrings([[(0, depth), (30, depth)] for depth in depths])
+
+    found = panes(lines, wall, 2.2, 12.0)
+
+    assert are_panes is found.buffer(0.1).covers(shapely.box(10, 0, 16, 2))
+    assert are_panes is not found.is_empty
+
+
+def test_windows_close_a_house_within_a_wall_around_its_plot():
+    plot = [box(*sides, fill=BLACK) for sides in ((-60, -60, 160, -56), (-60, 136, 160, 140))]
+    plot += [box(*sides, fill=BLACK) for sides in ((-60, -60, -56, 140), (156, -60, 160, 140))]
+    walls = [box(*sides, fill=BLACK) for sides in ((0, 0, 100, 4), (0, 0, 4, 80), (96, 0, 100, 80), *INNER)]
+    walls += [box(*sides, fill=BLACK) for sides in ((0, 76, 20, 80), (40, 76, 100, 80))]
+    door = (stroke((96, 20), (84, 20)), arc((96, 20), 12, 90, 180))
+    panes = [stroke((20, depth), (40, depth)) for depth in (76.0, 77.3, 78.7, 80.0)]
+
+    graph = graph_of((*plot, *walls, *door, *panes))
+
+    assert all(shapely.Point(30, 78).distance(shapely.LineString(g.segment)) > 8 for g in graph.gateways)
 
 
 def test_a_small_building_on_a_large_sheet_has_walls_of_two_faces():

@@ -26,7 +26,7 @@ from pilotage.interpretation.solids import (
     painted_thickness,
     without_crumbs,
 )
-from pilotage.interpretation.windows import building, windows, without_slivers
+from pilotage.interpretation.windows import building, panes, windows, without_slivers
 
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
@@ -208,11 +208,11 @@ def painted_walls(drawn: Drawn) -> Walls | None:
     body = without_slivers(drawn.solid, SLIVER * thickness)
     filled = shapely.union(filled_between(drawn.lines, drawn.solid, thickness), drawn.solid)
     thick = shapely.difference(body, drawn.panels)
-    glazed, shut = windows(
-        shapely.difference(filled, drawn.openings), thick, drawn.glass, thickness, drawn.widest
-    )
+    between = shapely.difference(filled, drawn.openings)
+    glazed, shut = windows(between, thick, drawn.glass, thickness, drawn.widest)
+    paned = panes(drawn.lines, thick, thickness, drawn.widest)
     open_ = shapely.union_all([drawn.openings, shapely.intersection(shut, drawn.panels)])
-    walls = shapely.union(glazed, shapely.difference(body, open_))
+    walls = shapely.union_all([glazed, paned, shapely.difference(body, open_)])
     if not are_walls(walls, drawn.lines, gap):
         return None
     return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)

@@ -3,7 +3,14 @@
 import shapely
 
 from pilotage.interpretation.paint import parts_of
+from pilotage.interpretation.pieces import joined, straight
 from pilotage.interpretation.solids import COARSE, HAIR, extent
+
+PANES = 3
+"""A window is drawn with so many lines or more from jamb to jamb: faces of its wall, and panes between."""
+
+DEEP = 1.2
+"""They lie within so many thicknesses of a wall."""
 
 
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
@@ -46,6 +53,28 @@ def windows(
         for kind in (True, False)
     )
     return shapely.union_all([*glazed, *named]), shapely.union_all(doors)
+
+
+def panes(
+    lines: shapely.Geometry, solid: shapely.Geometry, thickness: float, widest: float
+) -> shapely.Geometry:
+    """Fill windows: three lines or more that lead from jamb to jamb, within the thickness of a wall."""
+    hair = HAIR * thickness
+    whole = shapely.linestrings(joined(straight(lines), hair))
+    touching = whole[shapely.STRtree(whole).query(solid, predicate="intersects")]
+    pieces = parts_of(shapely.difference(shapely.multilinestrings(touching), solid))
+    reach = shapely.buffer(solid, hair)
+    shapely.prepare(reach)
+    from_jambs = shapely.intersects(reach, shapely.points(straight(pieces))).all(axis=1)
+    lengths = shapely.length(pieces)
+    pieces = pieces[from_jambs & (lengths > thickness) & (lengths <= widest)]
+    found = []
+    for group in parts_of(shapely.union_all(shapely.buffer(pieces, thickness / 2.0, cap_style="flat"))):
+        own = pieces[shapely.intersects(group, pieces)]
+        window = shapely.convex_hull(shapely.multilinestrings(own))
+        if len(own) >= PANES and window.area <= DEEP * thickness * shapely.length(own).max():
+            found.append(shapely.buffer(window, 2.0 * hair, join_style="mitre"))
+    return shapely.union_all(found)
 
 
 def building(walls: shapely.Geometry, gap: float) -> shapely.Geometry:
