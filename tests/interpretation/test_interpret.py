@@ -234,3 +234,15 @@ def test_corners_of_a_wall_that_nearly_coincide_are_no_matter():
     sheet = Sheet((box(0, 0, 10, 8, pen=Pen(BLACK, 1.0)), panel, zigzag))
 
     assert interpret(sheet).sketch.strokes  # and warns of no division by zero
+
+
+def test_a_painted_mark_without_a_line_may_be_told_to_be_a_wall_where_walls_are_solids_and_lines():
+    edges = [(0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80), (96, 0, 100, 80)]
+    outer = [box(*edge, fill=BLACK) for edge in edges]
+    thin = stroke((50, 4), (50, 76))
+    cupboard = box(70, 30, 80, 50, fill=(0.6, 0.6, 0.6), names=("cupboard",))
+
+    sketch = interpret(Sheet((*outer, thin, cupboard)), {"cupboard": Role.WALL}).sketch
+
+    assert [70.0, 30.0] in [ring.vertices.min(axis=0).tolist() for ring in sketch.solids]
+    assert any((line.vertices[:, 0] == 50.0).all() for line in sketch.strokes)

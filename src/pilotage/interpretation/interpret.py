@@ -169,7 +169,10 @@ def beside_walls(mark: Seen, walls: Walls) -> list[Polyline]:
     """List the lines of a mark that is told to be a wall, where no wall was found."""
     if walls.lines is None:
         return []  # every line is a wall
-    return list(polylines_of(shapely.difference(mark.line, shapely.union(walls.solid, walls.lines))))
+    if mark.line.is_empty:
+        return []  # only painted: its area is among the solids
+    beside = shapely.difference(mark.line, walls.solid)  # one by one: GEOS knows no areas and lines in one
+    return list(polylines_of(shapely.difference(beside, walls.lines)))
 
 
 def strokes_of(mark: Mark, grain: float) -> Iterator[Polyline]:
