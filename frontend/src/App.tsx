@@ -55,7 +55,7 @@ export function App() {
   const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
   const save = useAutosave(whole, revision);
   const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
-  const { told, error } = useUnderstanding(plain, revision, routeEnds);
+  const { told, error } = useUnderstanding(plain, save.document.name, revision, routeEnds);
 
   const tell = useCallback((text: string) => setNotice(text), []);
   useEffect(() => {
@@ -180,7 +180,8 @@ export function App() {
   const go = () => {
     const start = startOf(elements());
     const goal = goalName || goalOf(elements());
-    const drawn = { content: { media: SVG, text: plain() } };
+    const { name } = save.document;
+    const drawn = { content: { media: SVG, text: plain() }, ...(name ? { drawing: name } : {}) };
     setFate("none");
     setTool("none");
     if (!save.document.name && elements().length) save.adopt(save.document, null); // so that a reload finds it
@@ -190,7 +191,7 @@ export function App() {
     };
     const source = choice.recording && origin();
     otherwise.current = source ? order : null;
-    begin(source ? { ...order, content: undefined, ...source } : order);
+    begin(source ? { ...order, content: undefined, drawing: undefined, ...source } : order);
   };
 
   // A journal is in the units of the file that is open, or of the sheet if it was driven at the table.

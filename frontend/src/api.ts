@@ -81,14 +81,17 @@ export async function saveDrawing(name: string, text: string, tag: string | null
   return (await answer.json()).tag;
 }
 
-export async function upload(name: string, content: Blob): Promise<Upload> {
-  const answer = await ask(`/api/uploads?name=${encodeURIComponent(name)}`, { method: "POST", body: content });
+/** Has a file read; `drawing` is its name in the folder if it is there: the table beside it is read, too. */
+export async function upload(name: string, content: Blob, drawing = ""): Promise<Upload> {
+  const query = new URLSearchParams({ name, ...(drawing ? { drawing } : {}) });
+  const answer = await ask(`/api/uploads?${query}`, { method: "POST", body: content });
   return answer.json();
 }
 
-export async function understand(svg: string, signal: AbortSignal, ends?: [string, string]): Promise<Understanding> {
-  const query = ends ? `?from=${encodeURIComponent(ends[0])}&to=${encodeURIComponent(ends[1])}` : "";
-  const answer = await ask(`/api/understand${query}`, {
+/** Asks what is understood of a drawing; `drawing` is its name in the folder, "" as long as it has none. */
+export async function understand(svg: string, drawing: string, signal: AbortSignal, ends?: [string, string]): Promise<Understanding> {
+  const query = new URLSearchParams({ ...(drawing ? { drawing } : {}), ...(ends ? { from: ends[0], to: ends[1] } : {}) });
+  const answer = await ask(`/api/understand?${query}`, {
     method: "POST",
     body: svg,
     headers: { "Content-Type": SVG },

@@ -16,11 +16,12 @@ export interface Opened extends Scene {
   notes: string[];
 }
 
-export async function openContent(name: string, content: Blob): Promise<Opened> {
+/** Makes a scene of a file; `drawing` is its name in the folder if it is there. */
+export async function openContent(name: string, content: Blob, drawing = ""): Promise<Opened> {
   const isText = /\.(svg|excalidraw|json)$/i.test(name);
   const scene = isText ? sceneIn(await content.text()) : null;
   if (scene) return { elements: restoreElements(scene.elements, null), files: scene.files, svg: null, notes: [] };
-  const read = await upload(name, content);
+  const read = await upload(name, content, drawing);
   const opened = elementsOf(read);
   if (!PICTURE.test(content.type)) return opened;
   const picture = await pictureUnder(content, read).catch(() => null);

@@ -38,7 +38,7 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
 
   const openNamed = useCallback(async (name: string) => {
     const { text, tag } = await loadDrawing(name);
-    show(await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" })));
+    show(await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }), name));
     const own = text.includes("drawing-table-scene");
     from.current = own ? null : { drawing: name };
     save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());

@@ -10,14 +10,14 @@ export interface Understood {
   error: string;
 }
 
-export function useUnderstanding(content: () => string, revision: number, ends: [Point, Point] | null): Understood {
+export function useUnderstanding(content: () => string, name: string, revision: number, ends: [Point, Point] | null): Understood {
   const [understood, setUnderstood] = useState<Understood>({ told: null, error: "" });
   useEffect(() => {
     if (revision === 0) return;
     const control = new AbortController();
     const timer = setTimeout(() => {
       const places = ends?.map((p) => p.map((v) => v.toFixed(2)).join(",")) as [string, string] | undefined;
-      understand(content(), control.signal, places)
+      understand(content(), name, control.signal, places)
         .then((told) => {
           setUnderstood({ told, error: "" });
           requestAnimationFrame(() => remark("cells-shown"));
@@ -31,7 +31,7 @@ export function useUnderstanding(content: () => string, revision: number, ends: 
       clearTimeout(timer);
       control.abort();
     };
-  }, [content, revision, ends]);
+  }, [content, name, revision, ends]);
   return understood;
 }
 

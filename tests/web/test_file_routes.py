@@ -56,6 +56,33 @@ def test_cells_names_gateways_and_a_route_are_understood(client: TestClient) -> 
     assert [10.0, 10.0, 190.0, 110.0] == found["bounds"]
 
 
+def test_the_table_beside_a_drawing_is_read_as_by_the_commands(client: TestClient, folder: Path) -> None:
+    (folder / "plans").mkdir()
+    (folder / "plans/flat.svg.toml").write_text('[labels]\nattic = [50, 35]\n[layers]\nshelf = "ignore"\n')
+    drawn = FLAT.replace("</svg>", '<path id="shelf" d="M20 10 V60"/></svg>')
+    ask = "?name=flat.svg&drawing=plans/flat.svg"
+
+    found = client.post(f"/api/understand{ask}", content=drawn, headers=SVG).json()
+    read = client.post(f"/api/uploads{ask}", content=drawn).json()
+
+    assert "attic" in [cell["id"] for cell in found["cells"]]
+    assert 4 == len(found["cells"])
+    assert "hints are taken from the table beside the drawing" in found["assumed"]
+    assert "attic" in [label["text"] for label in read["labels"]]
+    other = client.post("/api/understand?drawing=other.svg", content=drawn, headers=SVG).json()
+    assert "attic" not in [label["text"] for label in other["labels"]]
+    assert 400 == client.post("/api/understand?drawing=../x.svg", content=drawn, headers=SVG).status_code
+
+
+def test_a_table_beside_a_drawing_that_cannot_be_read_is_a_finding(client: TestClient, folder: Path) -> None:
+    (folder / "flat.svg.toml").write_text("walls = 3\n")
+
+    found = client.post("/api/understand?drawing=flat.svg", content=FLAT, headers=SVG).json()
+
+    assert ["unreadable"] == [one["kind"] for one in found["findings"]]
+    assert "a table of hints holds" in found["findings"][0]["text"]
+
+
 def test_a_room_without_a_door_is_found_and_the_proposed_cut_mends_it(client: TestClient) -> None:
     found = client.post("/api/understand", content=CLOSED, headers=SVG).json()
     (closed,) = [one for one in found["findings"] if one["severity"] == "warning"]

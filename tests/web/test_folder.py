@@ -35,6 +35,13 @@ def test_a_link_out_of_the_folder_is_neither_listed_nor_read_nor_written(folder:
     assert "<svg>secret</svg>" == (folder.parent / "secret.svg").read_text()
 
 
+def test_a_table_beside_a_drawing_is_read_if_it_is_in_the_folder(folder: Path) -> None:
+    (folder / "flat.svg.toml").write_bytes(b"page = 1")
+    (folder / "link.svg.toml").symlink_to(folder.parent / "secret.svg")
+
+    assert [b"page = 1", b"", b""] == [Folder(folder).hints(f"{one}.svg") for one in ("flat", "link", "none")]
+
+
 @given(st.text(max_size=40))
 @settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_no_name_leads_out_of_the_folder(folder: Path, name: str) -> None:

@@ -215,6 +215,19 @@ def test_a_drawing_of_the_folder_drives_in_a_world_of_the_folder(client: TestCli
     assert frame["world"]["on_drawing"] is None
 
 
+@pytest.mark.parametrize("sent", [{}, {"content": CONTENT}])
+def test_a_drive_goes_to_a_room_that_the_table_beside_the_drawing_names(
+    client: TestClient, folder: Path, sent: dict[str, object]
+) -> None:
+    (folder / "flat.svg").write_text(FLAT)
+    (folder / "flat.svg.toml").write_text("[labels]\nattic = [150, 90]\n")
+    with talking(client) as talk:
+        talk.say("start", drawing="flat.svg", goal="attic", paused=True, **sent, **REAL)
+        session = talk.hear("session")
+
+    assert "attic" in session["goal"]
+
+
 def test_a_log_is_localized_live_and_can_only_be_watched(client: TestClient) -> None:
     with talking(client) as talk:
         talk.say("start", drawing="example:office/quick", recording="packed:office", speed=20)

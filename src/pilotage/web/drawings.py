@@ -1,7 +1,7 @@
 """Read a drawing that a page sent, and tell a drawing to a page; both in a worker."""
 
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
@@ -37,16 +37,21 @@ class UnreadableError(PilotageError):
 
 
 def read_sent(sent: Sent) -> "Drawing":
-    """Read a drawing; UnreadableError if that fails."""
+    """Read a drawing with what the table beside it says; UnreadableError if that fails."""
+    from pilotage.io.hints import read_hints
     from pilotage.io.maps import open_drawing
 
     with tempfile.TemporaryDirectory(prefix="pilotage-") as folder:
         path = Path(folder) / f"drawing{sent.suffix}"
         path.write_bytes(sent.content)
+        table = Path(folder) / "hints"
+        table.write_bytes(sent.hints)
         try:
-            return open_drawing(path)
+            drawing = open_drawing(path, read_hints(table))
         except FileError as error:
             raise UnreadableError(error.rule) from error
+    remarks = ("hints are taken from the table beside the drawing",) if sent.hints else ()
+    return replace(drawing, remarks=(*remarks, *drawing.remarks))
 
 
 @dataclass(frozen=True, eq=False)

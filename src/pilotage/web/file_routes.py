@@ -150,7 +150,7 @@ async def understand(request: Request) -> Response:
     suffix = next((suffix for suffix, known in MEDIA.items() if known == media), None)
     if suffix is None:
         raise HTTPException(415, f"a drawing must come as {' or '.join(MEDIA.values())}")
-    sent = Sent(suffix, await body_of(request, LARGEST_DRAWING))
+    sent = Sent(suffix, await body_of(request, LARGEST_DRAWING), hints_of(request))
     told = [place_in_query(request, name) for name in ("from", "to")]
     ends = None if told[0] is None or told[1] is None else (told[0], told[1])
     job = table_of(request).jobs.run(
@@ -192,10 +192,16 @@ async def upload(request: Request) -> Response:
         raise HTTPException(
             415, f"a file to upload must be one of {' '.join(UPLOADS)}, got {name.name[:60]!r}"
         )
-    sent = Sent(name.suffix.lower(), await body_of(request, LARGEST_UPLOAD))
+    sent = Sent(name.suffix.lower(), await body_of(request, LARGEST_UPLOAD), hints_of(request))
     table = table_of(request)
     found = await table.jobs.run(work.read_upload, sent, within=READ_WITHIN, name="reading this file")
     return JSONResponse({"name": table.folder.free_name(name.stem), **found})
+
+
+def hints_of(request: Request) -> bytes:
+    """Read the table beside the drawing of the folder that a request names, if it names one."""
+    name = request.query_params.get("drawing")
+    return table_of(request).folder.hints(name) if name else b""
 
 
 async def body_of(request: Request, largest: int) -> bytes:

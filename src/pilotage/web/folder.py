@@ -11,6 +11,8 @@ DRAWINGS = (".svg", ".excalidraw")
 """Kinds of files that can be drawn on."""
 WORLDS = (".yaml", ".yml", ".svg")
 """Kinds of files that may hold a world to drive in."""
+TABLE = ".toml"
+"""Added to the name of a drawing, it is the name of the table beside it."""
 JOURNAL = ".jsonl"
 RECORDINGS = (".log", ".gz", ".clf", ".bag", ".mcap", JOURNAL)
 """Kinds of files that may hold a laser log, or the journal of a drive."""
@@ -66,6 +68,14 @@ class Folder:
         """Read a drawing and its tag; FileNotFoundError if there is none."""
         content = self.path(name).read_bytes()
         return content, tag_of(content)
+
+    def hints(self, name: str) -> bytes:
+        """Read the table beside a drawing; nothing if there is none in the folder."""
+        self.path(name)
+        try:
+            return self.path(name + TABLE, (TABLE,)).read_bytes()
+        except (FileNotFoundError, NameRefusedError):
+            return b""
 
     def write(self, name: str, content: bytes, replaces: str | None) -> str:
         """Write a drawing in place of the version with this tag, or of none, and return its tag.

@@ -163,7 +163,13 @@ def read_drawing(message: Message, table: Table) -> tuple[Sent, str, str | None]
         if suffix is None or not isinstance(words, str) or len(words) > LARGEST_DRAWING:
             raise OrderError(f"content must hold media ({' or '.join(MEDIA.values())}) and text")
         title = message.get("title")
-        return Sent(suffix, words.encode()), title[:80] if isinstance(title, str) else "a drawing", None
+        saved = message.get("drawing")
+        hints = table.folder.hints(orders.text(message, "drawing")) if saved is not None else b""
+        return (
+            Sent(suffix, words.encode(), hints),
+            title[:80] if isinstance(title, str) else "a drawing",
+            None,
+        )
     name = orders.text(message, "drawing")
     kind, _, example = name.partition(":")
     if kind == "example":
@@ -171,7 +177,8 @@ def read_drawing(message: Message, table: Table) -> tuple[Sent, str, str | None]
             raise OrderError(f"there is no example {example[:60]!r}")
         return example_drawing(*EXAMPLES[example]), example, example
     try:
-        return Sent(PurePosixPath(name).suffix.lower(), table.folder.read(name)[0]), name, None
+        content, _ = table.folder.read(name)
+        return Sent(PurePosixPath(name).suffix.lower(), content, table.folder.hints(name)), name, None
     except FileNotFoundError as error:
         raise OrderError(f"there is no drawing {name!r}") from error
 

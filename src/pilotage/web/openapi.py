@@ -76,11 +76,15 @@ PATHS: dict[str, dict[str, object]] = {
             "make a drawing of a file of any kind; nothing is stored",
             takes="application/octet-stream",
             name="query",
+            drawing="query",
         )
     },
     "/api/understand": {
         "post": operation(
-            "say what is understood of a drawing", takes=DRAWING, **{"from": "query", "to": "query"}
+            "say what is understood of a drawing",
+            takes=DRAWING,
+            drawing="query",
+            **{"from": "query", "to": "query"},
         )
     },
     "/api/worlds": {"get": operation("list worlds to drive in")},

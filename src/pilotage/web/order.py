@@ -33,6 +33,7 @@ class Sent:
 
     suffix: str  # of its kind of file
     content: bytes
+    hints: bytes = b""  # the table beside it in the folder, TOML; empty if there is none
 
 
 @dataclass(frozen=True, slots=True)
