@@ -195,6 +195,16 @@ def test_lines_of_one_name_are_joined_and_areas_are_no_names():
     assert ["Meeting room"] == [label.text for label in interpret(Sheet(WITH_GAP, texts)).sketch.labels]
 
 
+def test_lines_of_words_with_a_wall_between_them_are_two_names():
+    wall = (stroke((0, 40), (20, 40)), stroke((30, 40), (50, 40)))
+    upper, lower = (Text("WC 1", (12, 42.5), 3.0), Text("WC 2", (12, 37.5), 3.0))
+
+    names = [label.text for label in interpret(Sheet((*WITH_GAP, *wall), (upper, lower))).sketch.labels]
+    without = [label.text for label in interpret(Sheet(WITH_GAP, (upper, lower))).sketch.labels]
+
+    assert (["WC 1", "WC 2"], ["WC 1 WC 2"]) == (names, without)
+
+
 def test_each_mark_has_a_role_and_a_reason():
     understood = interpret(
         Sheet((box(-5, -5, 105, 85, fill=WHITE), *WITH_GAP, box(2, 2, 48, 78, fill=(0.8, 0.9, 1.0))))

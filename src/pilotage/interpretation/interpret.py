@@ -85,7 +85,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
     if not strokes:
         raise NoWallsError("a drawing needs at least one visible stroke, found none")
     spoken = [number for number, (role, _) in enumerate(text_roles) if role in (Role.LABEL, Role.WALL)]
-    names = find_names([(number, sheet.texts[number]) for number in spoken])
+    names = find_names([(number, sheet.texts[number]) for number in spoken], strokes)
     start, goal = (marked(role, sheet, view.told, text_roles) for role in (Role.START, Role.GOAL))
     solid = parts.walls.solid
     solid = solid if solid.is_empty else shapely.union(solid, parts.stairs)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from pilotage.geometry import Polyline, segments_of
 from pilotage.interpretation.names import meaning_of, name_words
 from pilotage.interpretation.sheet import Role, Text
 
@@ -92,10 +93,11 @@ def role_of_words(words: str) -> tuple[Role, str]:
     return Role.LABEL, "words"
 
 
-def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
+def find_names(texts: Sequence[tuple[int, Text]], walls: Sequence[Polyline] = ()) -> list[Name]:
     """Join the lines of each name, the upper first; words without a letter, and measures, are left out.
 
-    What is written larger comes first: of the words in a room its name is, and not that of its furniture.
+    Lines with a wall between them are two names. What is written larger comes first: of the words in a room
+    its name is, and not that of its furniture.
     """
     kept = [
         (n, text)
@@ -104,11 +106,14 @@ def find_names(texts: Sequence[tuple[int, Text]]) -> list[Name]:
     ]
     following: dict[int, int] = {}
     taken: set[int] = set()
+    segments = shapely.STRtree(shapely.linestrings(segments_of(walls).reshape(-1, 2, 2)))
     for place, others in enumerate(near_lines([text for _, text in kept])):
+        upper = kept[place][1]
         below = [
             (distance, other)
             for other in others
-            if (distance := step_down(kept[place][1], kept[other][1])) is not None
+            if (distance := step_down(upper, kept[other][1])) is not None
+            and not are_parted(upper, kept[other][1], segments)
         ]
         if below and (nearest := min(below)[1]) not in taken:
             following[place] = nearest
@@ -158,6 +163,12 @@ def step_down(upper: Text, lower: Text) -> float | None:
         return None
     above, below = scripts(upper.text), scripts(lower.text)
     return None if above and below and not above & below else down
+
+
+def are_parted(upper: Text, lower: Text, walls: shapely.STRtree) -> bool:
+    """Tell whether a wall lies between the middles of two lines of words."""
+    way = shapely.linestrings([upper.position, lower.position])
+    return len(walls.query(way, predicate="intersects")) > 0
 
 
 def scripts(words: str) -> set[str]:
