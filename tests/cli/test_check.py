@@ -97,6 +97,16 @@ def test_a_layer_can_be_left_out_and_rooms_named(pilotage, drawing):
     assert 1 == content["marks"]["ignore"]
 
 
+def test_a_name_that_is_told_replaces_the_written_one(pilotage, drawing):
+    path = drawing(more='<text x="120" y="20" font-size="5">office</text>')
+    outcome = pilotage("cells", path, "--label", "lab=110,30", "--start", "office", "--goal", "lab")
+    told = pilotage("check", path, "--label", "lab=110,30").out
+
+    assert 0 == outcome.code
+    assert "lab 'lab': office" in told
+    assert told.endswith("nothing looks wrong\n")
+
+
 def test_the_table_beside_a_drawing_is_read_and_told(pilotage, drawing):
     path = drawing(DIVIDED)
     path.with_name("suite.svg.toml").write_text('[layers]\nA-ODD = "ignore"\n[labels]\nlab = [120, 20]\n')

@@ -119,6 +119,17 @@ def test_words_name_the_cell_in_which_they_stand():
     assert "" == graph.cell(graph.cell_at((9.0, 1.0))).label
 
 
+def test_a_name_that_is_told_replaces_what_is_written_in_its_cell_and_nowhere_else():
+    written = (Label("bedroom", (2.0, 2.0)), Label("bedroom", (9.0, 2.0)))
+    graph = decomposed(*TWO_ROOMS, labels=(*written, Label("guests", (1.0, 1.0), told=True)))
+
+    assert (
+        {"guests", "bedroom"}
+        == {cell.label for cell in graph.cells}
+        == {cell.cell_id for cell in graph.cells}
+    )
+
+
 def test_sizes_are_relative_to_the_drawing():
     graph = decomposed(*CORRIDOR_AND_FOUR_ROOMS)
 

@@ -52,7 +52,7 @@ def test_all_that_is_drawn_and_marked_is_carried():
     line = Polyline.through([(1.0, 2.0), (3.0, 4.0)])
     zones = Zones(*((line,) for _ in Zones().lines))
     sketch = SchematicMap(
-        (line,), (1.0, 1.0), (2.0, 2.0), (Label("hall", (3.0, 3.0)),), solids=(line,), zones=zones,
+        (line,), (1.0, 1.0), (2.0, 2.0), (Label("hall", (3.0, 3.0), told=True),), solids=(line,), zones=zones,
         doors=(line,), openings=(line,), unread=((4.0, 4.0),),
     )  # fmt: skip
     far = 1000.0
@@ -64,5 +64,6 @@ def test_all_that_is_drawn_and_marked_is_carried():
     lines += [one for some in carried.zones.lines for one in some]
     places = [carried.start, carried.goal, carried.labels[0].position, *carried.unread]
     assert 4 + len(Zones().lines) == len(lines)
+    assert carried.labels[0].told
     assert np.vstack([one.vertices for one in lines]).min() > far
     assert np.array(places).min() > far

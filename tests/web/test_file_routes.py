@@ -69,6 +69,7 @@ def test_the_table_beside_a_drawing_is_read_as_by_the_commands(client: TestClien
     assert 4 == len(found["cells"])
     assert "hints are taken from the table beside the drawing" in found["assumed"]
     assert "attic" in [label["text"] for label in read["labels"]]
+    assert "kitchen" not in [label["text"] for label in read["labels"]]
     other = client.post("/api/understand?drawing=other.svg", content=drawn, headers=SVG).json()
     assert "attic" not in [label["text"] for label in other["labels"]]
     assert 400 == client.post("/api/understand?drawing=../x.svg", content=drawn, headers=SVG).status_code

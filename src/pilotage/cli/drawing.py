@@ -38,7 +38,8 @@ Labels = Annotated[
     typer.Option(
         "--label",
         metavar="NAME=X,Y",
-        help="The name of the room at a point of the drawing; repeat for more.",
+        help="The name of the room at a point of the drawing, instead of what is written there; "
+        "repeat for more.",
         show_default="as written in the drawing",
     ),
 ]

@@ -195,7 +195,7 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 "same-name",
                 Severity.NOTE,
                 f"{len(cells)} rooms are called {cells[0].label!r}",
-                "number them, or say which by X,Y",
+                "number them (--label NAME=X,Y names one anew), or say which by X,Y",
                 cells[1].center,
                 tuple(cell.cell_id for cell in cells),
             )

@@ -73,7 +73,7 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
     elif hints.layers:
         remarks.append("a picture has no layers")
     labels = tuple(
-        Label(name, (float(x), float(y)))
+        Label(name, (float(x), float(y)), told=True)
         for name, point in hints.labels
         for x, y in sketch.sketch_from_file(np.array([point], dtype=np.float64))
     )

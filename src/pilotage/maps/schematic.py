@@ -20,6 +20,7 @@ class Label:
 
     text: str
     position: tuple[float, float]  # [drawing units], y up
+    told: bool = False  # by a person, instead of what is written in the same room
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +91,7 @@ class SchematicMap:
             openings=tuple(map(line, self.openings)),
             start=self.start and place(self.start),
             goal=self.goal and place(self.goal),
-            labels=tuple(Label(label.text, place(label.position)) for label in self.labels),
+            labels=tuple(replace(label, position=place(label.position)) for label in self.labels),
             unread=tuple(map(place, self.unread)),
         )
 

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 from xml.sax.saxutils import escape
 
 import numpy as np
+import shapely
 
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Array, Polyline
 from pilotage.interpretation import ZONE_ROLES
-from pilotage.maps import SchematicMap
+from pilotage.maps import DecompositionSettings, NotEnclosedError, SchematicMap, decompose
 from pilotage.web.order import Sent
 
 if TYPE_CHECKING:
@@ -128,11 +129,30 @@ def labels_of(sketch: SchematicMap) -> list[Json]:
 def read_upload(sent: Sent) -> Json:
     """Read a file of any kind, and make a drawing of it that can be drawn on."""
     drawing = read_sent(sent)
-    sketch = drawing.sketch
+    sketch = without_replaced(drawing.sketch)
     notes = [f"{len(sketch.strokes)} strokes were taken for walls", *drawing.remarks]
     if drawing.interpretation is not None:
         notes += drawing.interpretation.sheet.left_out
     return {**describe_drawing(sketch), "svg": svg_of(sketch), "notes": notes}
+
+
+def without_replaced(sketch: SchematicMap) -> SchematicMap:
+    """Leave out what is written in rooms whose names are told: in the new drawing all names are written."""
+    told = [label for label in sketch.labels if label.told]
+    if not told:
+        return sketch
+    try:
+        graph = decompose(sketch, DecompositionSettings())
+    except NotEnclosedError:
+        return sketch
+    points = [shapely.Point(label.position) for label in told]
+    named = [cell.polygon for cell in graph.cells if any(map(cell.polygon.covers, points))]
+    kept = (
+        label
+        for label in sketch.labels
+        if label.told or not any(room.covers(shapely.Point(label.position)) for room in named)
+    )
+    return replace(sketch, labels=tuple(kept))
 
 
 def svg_of(sketch: SchematicMap) -> str:

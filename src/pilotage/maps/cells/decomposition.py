@@ -126,15 +126,19 @@ def new_cells(
 
 
 def words_in(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> list[list[str]]:
-    """Sort labels by the polygon that each stands in; those outside all are left out."""
-    words: list[list[str]] = [[] for _ in polygons]
+    """Sort labels by the polygon that each stands in; those outside all are left out.
+
+    Where names are told, what is written in the same polygon is left out, too.
+    """
+    found: list[list[Label]] = [[] for _ in polygons]
     for label in labels:
         point = shapely.Point(label.position)
         for number, polygon in enumerate(polygons):
             if polygon.covers(point):
-                words[number].append(label.text)
+                found[number].append(label)
                 break
-    return words
+    told = [[label for label in here if label.told] for here in found]
+    return [[label.text for label in names or here] for names, here in zip(told, found, strict=True)]
 
 
 def vertices_of(ring: shapely.LinearRing) -> Array:
