@@ -60,7 +60,30 @@ def test_the_names_under_which_walls_are_drawn_are_listed(pilotage, drawing):
 def test_a_goal_that_cannot_be_used_fails(pilotage, drawing):
     assert 1 == pilotage("check", drawing(), "--goal", "900,900").code
     assert 0 == pilotage("check", drawing(), "--goal", "120,20").code
-    assert 2 == pilotage("check", drawing(), "--goal", "nowhere").code
+
+
+@pytest.mark.parametrize(
+    ("option", "words", "told"),
+    [
+        ("--goal", "nowhere", "error: the label 'nowhere' stands in no cell, labels in cells are: office;"),
+        (
+            "--start",
+            "office",
+            "error: the label 'office' stands in 2 cells (office, office-2), name the place",
+        ),
+        ("--goal", "", "error: a place needs a name or two numbers X,Y, got nothing;"),
+    ],
+)
+def test_an_end_that_no_one_room_is_called_is_a_finding_of_the_report(pilotage, drawing, option, words, told):
+    twice = '<text x="120" y="20" font-size="5">office</text>'
+    outcome = pilotage("check", drawing(more=twice), option, words)
+    content = json.loads(pilotage("check", drawing(more=twice), option, words, "--json").out)
+
+    assert 1 == outcome.code
+    assert told in outcome.out
+    assert "2 rooms (2 with a name), 1 door" in outcome.out
+    assert f"bad-{option[2:]}" == content["findings"][0]["kind"]
+    assert content["findings"][0]["where"] is None
 
 
 def test_a_marked_goal_that_cannot_be_used_fails(pilotage, drawing):

@@ -83,13 +83,13 @@ def with_ends(found: "Report", start: str | None, goal: str | None) -> "Report":
     from pilotage.findings import for_ends
     from pilotage.maps import RouteError
 
-    ends = []
-    for option, words in (("--start", start), ("--goal", goal)):
+    ends, problems = {}, {}
+    for what, words in (("start", start), ("goal", goal)):
         try:
-            ends.append(None if words is None else find_place(words, found.sketch, found.graph))
+            ends[what] = None if words is None else find_place(words, found.sketch, found.graph)
         except RouteError as error:
-            raise typer.BadParameter(str(error), param_hint=option) from error
-    return for_ends(found, ends[0], ends[1])
+            problems[what] = str(error)
+    return for_ends(found, ends.get("start"), ends.get("goal"), problems)
 
 
 def describe(name: str, found: "Report") -> str:

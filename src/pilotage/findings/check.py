@@ -1,7 +1,8 @@
 """Find what looks wrong with a drawing."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from pilotage.findings.finding import Finding, Point, Severity
 from pilotage.findings.gaps import find_closed_gaps, find_idle_arrows, find_odd_gateways
@@ -103,15 +104,25 @@ def find_all(
         yield from find_marks_left_out(interpretation)
 
 
-def for_ends(report: Report, start: Point | None, goal: Point | None) -> Report:
-    """Judge another start or goal than those that are marked: points of the sketch; None: as marked."""
+def for_ends(
+    report: Report,
+    start: Point | None,
+    goal: Point | None,
+    problems: Mapping[str, str] = MappingProxyType({}),
+) -> Report:
+    """Judge another start or goal than those that are marked: points of the sketch (y up); None: as marked.
+
+    `problems` says of a "start" or "goal" that was told by a name why no place could be found for it.
+    """
     assert report.graph is not None
+    marked = report.sketch
     sketch = replace(
-        report.sketch,
-        start=report.sketch.start if start is None else start,
-        goal=report.sketch.goal if goal is None else goal,
+        marked,
+        start=None if "start" in problems else start or marked.start,
+        goal=None if "goal" in problems else goal or marked.goal,
     )
-    ends = in_order(sketch, list(find_bad_ends(sketch, report.graph)))
+    unknown = [bad_end(what, None, problem) for what, problem in problems.items()]
+    ends = in_order(sketch, [*unknown, *find_bad_ends(sketch, report.graph)])
     others = tuple(finding for finding in report.findings if finding.kind not in END_KINDS)
     return replace(report, sketch=sketch, findings=ends + others)
 
@@ -144,9 +155,10 @@ def place_problem(graph: CellGraph, point: Point, what: str) -> str:
     return ""
 
 
-def bad_end(what: str, point: Point, problem: str) -> Finding:
-    """Report a start or goal that cannot be used."""
-    return Finding(f"bad-{what}", Severity.ERROR, problem, f"move the mark of the {what}", point)
+def bad_end(what: str, point: Point | None, problem: str) -> Finding:
+    """Report a start or goal that cannot be used; without a point it is a name that no one room bears."""
+    advice = f"move the mark of the {what}" if point else f"name a room or a point X,Y for the {what}"
+    return Finding(f"bad-{what}", Severity.ERROR, problem, advice, point)
 
 
 def in_order(sketch: SchematicMap, findings: list[Finding]) -> tuple[Finding, ...]:
