@@ -18,7 +18,7 @@ from pilotage.findings.doors import suggest_door
 from pilotage.findings.page import join_open_ends
 from pilotage.geometry import Polyline
 from pilotage.io import open_map
-from pilotage.maps import Label, SchematicMap
+from pilotage.maps import Label, SchematicMap, Zones
 
 NAMES = (
     Label("Ann", (5.0, 2.0)),
@@ -129,6 +129,12 @@ def test_a_drawing_without_words_says_how_to_name_rooms():
     assert "--label" in kinds(replace(GOOD, labels=()))["no-names"].advice
 
 
+def test_words_outside_of_all_rooms_name_none():
+    found = kinds(replace(GOOD, labels=(Label("Plan of 1998", (40.0, 40.0)),)))
+
+    assert {"no-names", "label-outside"} == set(found)
+
+
 def test_two_buildings_on_one_sheet_are_told():
     moved = [[(x + 40, y) for x, y in stroke] for stroke in CORRIDOR_AND_FOUR_ROOMS]
     found = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *moved))
@@ -175,6 +181,15 @@ def test_rooms_called_stairs_that_a_robot_may_drive_into_are_told():
     closed = kinds(replace(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN), labels=named.labels))
     assert "'Lift 2'" in closed["stairs-room"].text
     assert "stairs-room" not in kinds(GOOD)
+
+
+@pytest.mark.parametrize(("right", "is_told"), [(10.2, False), (9.5, False), (4.0, True)])
+def test_rooms_called_stairs_that_are_a_keep_out_zone_are_not_told(right, is_told):
+    labels = (*NAMES[1:], Label("Lift 2", (5.0, 2.0)))
+    ring = Polyline(np.array([(-0.2, -0.2), (right, -0.2), (right, 5.2), (-0.2, 5.2)]), closed=True)
+    found = kinds(replace(GOOD, labels=labels, zones=Zones(keep_out=(ring,))))
+
+    assert ("stairs-room" in found) is is_told
 
 
 def test_a_wing_without_a_way_to_it_is_told_with_a_door():

@@ -92,7 +92,7 @@ def find_all(
     yield from find_parts(division.graph)
     yield from find_closed_areas(division, sketch.labels)
     yield from find_rooms_without_door(sketch, division.graph, drawn_doors(interpretation))
-    yield from find_stair_rooms(division.graph)
+    yield from find_stair_rooms(division.graph, sketch.zones)
     yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)
     yield from find_names(sketch, division)

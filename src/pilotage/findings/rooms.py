@@ -12,7 +12,7 @@ from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
-from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap
+from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap, Zones
 from pilotage.maps.routing.places import connected_cells, folded
 
 BUILDING = 0.2
@@ -29,6 +29,9 @@ SOLID = 0.005
 
 NAMED, UNNAMED = 3, 2.0
 """Where so many rooms have a name, rooms without are pieces of others if they are so many times as many."""
+
+KEPT_OUT = 0.8
+"""A room is kept out if zones cover this share of it."""
 
 LISTED = 3
 """So many words are listed before the rest is counted."""
@@ -158,11 +161,11 @@ def in_one_building(shapes: list[shapely.Geometry], wall: float) -> NDArray[np.b
     return found
 
 
-def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
-    """Find rooms that are called stairs or lifts, and that doors lead into all the same."""
+def find_stair_rooms(graph: CellGraph, zones: Zones) -> Iterator[Finding]:
+    """Find rooms that are called stairs or lifts, and that a robot may drive into: by a door, in no zone."""
     for cell in graph.cells:
         roles = {MEANING.get(word) for word in name_words(cell.label)}
-        if Role.STAIRS in roles and graph.gateways_of(cell.cell_id):
+        if Role.STAIRS in roles and graph.gateways_of(cell.cell_id) and not is_kept_out(cell, zones):
             yield Finding(
                 "stairs-room",
                 Severity.NOTE,
@@ -173,10 +176,16 @@ def find_stair_rooms(graph: CellGraph) -> Iterator[Finding]:
             )
 
 
+def is_kept_out(cell: Cell, zones: Zones) -> bool:
+    """Tell whether keep-out zones cover a room; they may be drawn a little unevenly."""
+    covered = shapely.intersection(cell.polygon, zones.keep_out_area).area
+    return bool(covered >= KEPT_OUT * cell.polygon.area)
+
+
 def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
     """Find labels outside of rooms, names that several rooms have, and rooms that have several names."""
     graph = division.graph
-    if not sketch.labels:
+    if not any(cell.label for cell in graph.cells):
         yield Finding(
             "no-names",
             Severity.NOTE,
