@@ -90,7 +90,7 @@ def test_a_marked_goal_that_cannot_be_used_fails(pilotage, drawing):
     outcome = pilotage("check", drawing(more='<circle id="goal" cx="300" cy="20" r="2"/>'))
 
     assert 1 == outcome.code
-    assert "error at 300,20: the goal lies outside the drawing" in outcome.out
+    assert "1  error at 300,20: the goal lies outside the drawing" in outcome.out
 
 
 def test_a_drawing_without_rooms_fails_and_is_drawn_all_the_same(pilotage, tmp_path):
@@ -101,6 +101,20 @@ def test_a_drawing_without_rooms_fails_and_is_drawn_all_the_same(pilotage, tmp_p
     assert 1 == outcome.code
     assert "encloses none" in outcome.out
     assert figure.read_bytes().startswith(b"\x89PNG")
+
+
+def test_findings_are_numbered_as_in_the_picture_and_all_of_a_kind_are_listed_if_wanted(pilotage, drawing):
+    path = drawing("".join(f'<polyline points="{x},0 {x},50"/>' for x in (80, 90, 100, 115, 130)))
+    told, every = (pilotage("check", path, *option).out.splitlines() for option in ((), ("--all",)))
+    found = json.loads(pilotage("check", path, "--json").out)["findings"]
+    closed = [number for number, one in enumerate(found, 1) if one["kind"] == "room-without-door"]
+
+    assert 5 == len(closed)
+    assert "warning: 2 more of this kind (room-without-door), listed by --all" in told
+    for number, one in enumerate(found, 1):
+        assert (number in closed[3:]) is not any(line.startswith(f"{number}  ") for line in told)
+        assert [one["text"] in line for line in every if line.startswith(f"{number}  ")] == [True]
+    assert not [line for line in every if "more of this kind" in line]
 
 
 def test_cells_says_the_worst_in_one_line(pilotage, drawing):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 OF_A_KIND = 3
-"""Findings of a kind that are listed; --json lists all."""
+"""Findings of a kind that are listed; --all and --json list all."""
 
 MOST_NAMES = 8
 """Names of walls that are listed, those with most marks; a name of one mark, or of all, is no layer."""
@@ -33,6 +33,9 @@ def check(
     figure: Annotated[
         Path | None, typer.Option(help="Where to draw what was understood (.png, .svg, .pdf).")
     ] = None,
+    every: Annotated[
+        bool, typer.Option("--all", help=f"List all findings, not only {OF_A_KIND} of a kind.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print all of it as JSON.")] = False,
     layer: Layers = None,
     label: Labels = None,
@@ -45,7 +48,8 @@ def check(
 
     Rooms and their names, doors, and what the marks were taken for; then findings: where, why, what to do. An
     *error* means that the drawing, its start or its goal cannot be used, and the exit status is 1; a
-    *warning* that something is probably not what you meant; a *note* is worth knowing.
+    *warning* that something is probably not what you meant; a *note* is worth knowing. The number before a
+    finding is the one in the picture of --figure.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down).
 
@@ -65,7 +69,7 @@ def check(
     if as_json:
         typer.echo(json.dumps({"file": str(drawing), **json_of(found, opened.remarks)}, indent=1))
     else:
-        typer.echo(describe(drawing.name, found))
+        typer.echo(describe(drawing.name, found, every=every))
     if figure is not None:
         from pilotage.figures.check import check_figure
         from pilotage.figures.style import save
@@ -92,8 +96,8 @@ def with_ends(found: "Report", start: str | None, goal: str | None) -> "Report":
     return for_ends(found, ends.get("start"), ends.get("goal"), problems)
 
 
-def describe(name: str, found: "Report") -> str:
-    """Write what was understood, then the findings."""
+def describe(name: str, found: "Report", *, every: bool) -> str:
+    """Write what was understood, then every finding or a few of each kind."""
     lines = [f"{name}: {counted(found)}"]
     if found.graph is not None:
         for cell in found.graph.cells:
@@ -101,21 +105,26 @@ def describe(name: str, found: "Report") -> str:
             beside = ", ".join(neighbors_of(cell.cell_id, found.graph)) or "no door"
             lines.append(f"  {cell.cell_id}{words}: {beside}")
     lines += [f"  {line}" for line in marks_in_words(found)]
-    lines += listed(found.findings) or ["nothing looks wrong"]
+    lines += listed(found.findings, every=every) or ["nothing looks wrong"]
     return "\n".join(lines)
 
 
-def listed(findings: "tuple[Finding, ...]") -> list[str]:
-    """List findings, a few of each kind before the others are counted."""
+def listed(findings: "tuple[Finding, ...]", *, every: bool) -> list[str]:
+    """List findings with the numbers that they have in the picture.
+
+    If not every one is wanted, a few of each kind are listed before the others are counted.
+    """
     lines, told = [], Counter[str]()
     count = Counter(finding.kind for finding in findings)
-    for finding in findings:
+    for number, finding in enumerate(findings, start=1):
         told[finding.kind] += 1
-        if told[finding.kind] <= OF_A_KIND:
-            lines.append(str(finding))
+        if every or told[finding.kind] <= OF_A_KIND:
+            lines.append(f"{number}  {finding}")
         elif told[finding.kind] == OF_A_KIND + 1:
             more = count[finding.kind] - OF_A_KIND
-            lines.append(f"{finding.severity.value}: {more} more of this kind ({finding.kind})")
+            lines.append(
+                f"{finding.severity.value}: {more} more of this kind ({finding.kind}), listed by --all"
+            )
     return lines
 
 

@@ -91,7 +91,9 @@ def list_of(findings: tuple[Finding, ...], width: float) -> list[tuple[str, Seve
         wrapped = textwrap.wrap(text, int(width * LETTERS_AN_INCH), subsequent_indent="    ")
         lines += [(line, finding.severity) for line in wrapped]
     if len(findings) > told.total():
-        lines.append((f"and {len(findings) - told.total()} more", Severity.NOTE))
+        lines.append(
+            (f"and {len(findings) - told.total()} more: `pilotage check --all` lists them", Severity.NOTE)
+        )
     return lines
 
 
