@@ -85,6 +85,14 @@ def test_a_room_whose_only_door_leads_out_of_the_drawing_is_told_so():
     assert "no door leads into 'Ben'" == closed.text
 
 
+def test_a_small_area_without_a_name_may_be_furniture():
+    small = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, [(0, 4), (0.8, 4), (0.8, 5)]))["room-without-door"]
+    large = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))["room-without-door"]
+
+    assert (Severity.NOTE, Severity.WARNING) == (small.severity, large.severity)
+    assert small.advice.startswith("if it is furniture or a void, nothing is to be done")
+
+
 def test_a_door_is_suggested_where_one_is_drawn():
     room = shapely.box(10, 0, 20, 5)
     neighbors = [shapely.box(0, 0, 10, 5), shapely.box(10, 5, 20, 7)]
@@ -162,6 +170,7 @@ def test_a_drawing_whose_doors_are_closed_is_said_to_be_in_pieces_first():
 
     assert "in-pieces" == found[0].kind
     assert "doors join only 2 of 5 rooms" == found[0].text
+    assert {Severity.NOTE} == {finding.severity for finding in found[1:]}
     assert "in-pieces" not in kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_BEN))
 
 

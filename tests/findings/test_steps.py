@@ -76,3 +76,10 @@ def test_steps_in_a_room_are_told_until_they_are_called_stairs():
     assert "7 lines" in kinds()["drivable-stairs"].text
     assert (76.0, 25.0) == pytest.approx(kinds()["drivable-stairs"].where)
     assert "drivable-stairs" not in kinds(X7=Role.STAIRS)
+
+
+def test_a_rack_narrower_than_stairs_is_not_told():
+    lines = 0.4 * flight(7) + np.array((70.0, 20.0))
+    found = interpret(Sheet((*WALLS, *(stroke(*line) for line in lines.tolist()))))
+
+    assert "drivable-stairs" not in {finding.kind for finding in report(found.sketch, found).findings}

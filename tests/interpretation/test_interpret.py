@@ -246,6 +246,23 @@ def test_corners_of_a_wall_that_nearly_coincide_are_no_matter():
     assert interpret(sheet).sketch.strokes  # and warns of no division by zero
 
 
+def test_a_color_tells_what_marks_are_unless_an_inner_name_does():
+    gray = (0.6, 0.6, 0.6)
+    marks = (
+        box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)),
+        box(10, 10, 20, 20, fill=gray),
+        box(40, 10, 50, 20, fill=gray, names=("core",)),
+    )
+
+    found = interpret(Sheet(marks), {"#999999": Role.FURNITURE, "core": Role.WALL})
+
+    assert (Role.FURNITURE, "you said that '#999999' is furniture") == (
+        found.meanings[1].role,
+        found.meanings[1].reason,
+    )
+    assert "you said that 'core' is wall" == found.meanings[2].reason
+
+
 def test_a_painted_mark_without_a_line_may_be_told_to_be_a_wall_where_walls_are_solids_and_lines():
     edges = [(0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80), (96, 0, 100, 80)]
     outer = [box(*edge, fill=BLACK) for edge in edges]

@@ -22,7 +22,7 @@ OF_A_KIND = 3
 """Findings of a kind that are listed; --all and --json list all."""
 
 MOST_NAMES = 8
-"""Names of walls that are listed, those with most marks; a name of one mark, or of all, is no layer."""
+"""So many names and colors of walls are listed, most marks first; what one mark has, or all, is no layer."""
 
 
 def check(
@@ -142,6 +142,7 @@ def marks_in_words(found: "Report") -> list[str]:
     if found.interpretation is None:
         return []
     from pilotage.interpretation import Role
+    from pilotage.interpretation.names import colors_of
 
     meanings = found.interpretation.meanings
     lines = []
@@ -149,16 +150,15 @@ def marks_in_words(found: "Report") -> list[str]:
         reasons = Counter(meaning.reason for meaning in meanings if meaning.role is role)
         told = ", ".join(f"{reason} ({number})" for reason, number in reasons.most_common(3))
         lines.append(f"{count} mark{'s' * (count != 1)} {role.value}: {told}")
-    names = Counter(
-        name
-        for mark, meaning in zip(found.interpretation.sheet.marks, meanings, strict=True)
-        if meaning.role is Role.WALL
-        for name in set(mark.names)
-    )
-    walls = sum(meaning.role is Role.WALL for meaning in meanings)
-    telling = [(name, count) for name, count in names.most_common() if 1 < count < walls]
-    common = [f"{name!r} ({count})" for name, count in telling[:MOST_NAMES]]
-    return [*lines, f"walls by name, for --layer: {', '.join(common)}"] if common else lines
+    pairs = zip(found.interpretation.sheet.marks, meanings, strict=True)
+    walls = [mark for mark, meaning in pairs if meaning.role is Role.WALL]
+    for what, names_of in (("name", lambda mark: mark.names), ("color", colors_of)):
+        names = Counter(name for mark in walls for name in set(names_of(mark)))
+        telling = [(name, count) for name, count in names.most_common() if 1 < count < len(walls)]
+        if telling:
+            common = ", ".join(f"{name!r} ({count})" for name, count in telling[:MOST_NAMES])
+            lines.append(f"walls by {what}, for --layer: {common}")
+    return lines
 
 
 def json_of(found: "Report", remarks: tuple[str, ...]) -> dict[str, object]:

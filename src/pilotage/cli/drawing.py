@@ -28,8 +28,8 @@ Layers = Annotated[
     typer.Option(
         "--layer",
         metavar="NAME=ROLE",
-        help="What the marks of a layer, class, id or block are: wall, door, window, stairs, floor, "
-        "furniture, keep-out, slow, one-way, label, start, goal or ignore; repeat for more.",
+        help="What the marks of a layer, class, id, block or color ('#ff0000') are: wall, door, window, "
+        "stairs, floor, furniture, keep-out, slow, one-way, label, start, goal or ignore; repeat for more.",
         show_default="guessed",
     ),
 ]

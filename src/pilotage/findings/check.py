@@ -41,6 +41,9 @@ from pilotage.maps.routing.roadmap import check_allowed
 ORDER = tuple(Severity)
 END_KINDS = ("bad-start", "bad-goal")
 
+FOLLOWING = ("unreachable", "room-without-door", "closed-gap")
+"""Where a drawing is in pieces these follow from it, and are but notes."""
+
 
 @dataclass(frozen=True, eq=False)
 class Report:
@@ -90,7 +93,7 @@ def find_all(
     yield from find_bad_ends(sketch, division.graph)
     yield from find_no_door(division.graph)
     yield from find_parts(division.graph)
-    yield from find_closed_areas(division, sketch.labels)
+    yield from find_closed_areas(sketch, division)
     yield from find_rooms_without_door(sketch, division.graph, drawn_doors(interpretation))
     yield from find_stair_rooms(division.graph, sketch.zones)
     yield from find_drivable_stairs(division.graph, interpretation)
@@ -163,5 +166,10 @@ def bad_end(what: str, point: Point | None, problem: str) -> Finding:
 
 def in_order(sketch: SchematicMap, findings: list[Finding]) -> tuple[Finding, ...]:
     """Sort findings, the worst first, else as they were found; carry them to the axes of the file."""
+    if any(finding.kind == "in-pieces" for finding in findings):
+        findings = [
+            replace(finding, severity=Severity.NOTE) if finding.kind in FOLLOWING else finding
+            for finding in findings
+        ]
     ranked = sorted(findings, key=lambda finding: ORDER.index(finding.severity))
     return tuple(finding.in_file(sketch) for finding in ranked)

@@ -12,7 +12,7 @@ from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
-from pilotage.maps import Cell, CellGraph, Division, Label, SchematicMap, Zones
+from pilotage.maps import Cell, CellGraph, Division, SchematicMap, Zones
 from pilotage.maps.routing.places import connected_cells, folded
 
 BUILDING = 0.2
@@ -42,7 +42,11 @@ ALONG = 0.003
 LEAST_DOOR = 0.4
 """A door to the outside has at least this share of the usual width."""
 
+FURNITURE = 0.25
+"""What has no name and is smaller than this share of the median room is probably furniture or a void."""
+
 DOOR_ADVICE = "leave a gap in its wall where the door is"
+VOID_ADVICE = "if it is furniture or a void, nothing is to be done; if it is a room, " + DOOR_ADVICE
 
 
 def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array) -> Iterator[Finding]:
@@ -51,23 +55,27 @@ def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array
     if len(graph.cells) == 1 or not rooms:
         return
     strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    usual = float(np.median([cell.polygon.area for cell in graph.cells if cell not in rooms] or [0.0]))
     for cell in rooms:
         others = [other.polygon for other in graph.cells if other is not cell]
         mend = suggest_door(cell.polygon, others, graph, drawn)
         text, advice = f"no door leads into {named(cell)}", DOOR_ADVICE
-        if leads_outdoors(cell, strokes, door_width(graph), ALONG * graph.diameter):
+        is_void = not cell.label and cell.polygon.area < FURNITURE * usual
+        if is_void:
+            advice = VOID_ADVICE
+        elif is_open(cell.polygon.exterior, strokes, LEAST_DOOR * door_width(graph), ALONG * graph.diameter):
             text += ", except from outside of what is drawn"
             advice = "draw the walls around the place where it leads, or leave a gap in another wall"
-        yield Finding("room-without-door", Severity.WARNING, text, advice, cell.center, (cell.cell_id,), mend)
+        severity = Severity.NOTE if is_void else Severity.WARNING
+        yield Finding("room-without-door", severity, text, advice, cell.center, (cell.cell_id,), mend)
 
 
-def leads_outdoors(cell: Cell, strokes: shapely.STRtree, door: float, near: float) -> bool:
-    """Tell whether the outline of a cell without a gateway is open for the width of a door."""
-    outline = cell.polygon.exterior
+def is_open(outline: shapely.Geometry, strokes: shapely.STRtree, width: float, near: float) -> bool:
+    """Tell whether no stroke runs near an outline over this width in one piece."""
     beside = strokes.geometries[strokes.query(outline, predicate="dwithin", distance=near)]
     walls = shapely.union_all(shapely.buffer(beside, near))
     parts = shapely.get_parts(shapely.line_merge(shapely.difference(outline, walls)))
-    return bool((shapely.length(parts) + 2.0 * near > LEAST_DOOR * door).any())
+    return bool((shapely.length(parts) + 2.0 * near > width).any())
 
 
 def drawn_doors(interpretation: Interpretation | None) -> Array:
@@ -79,26 +87,34 @@ def drawn_doors(interpretation: Interpretation | None) -> Array:
     return np.vstack([NOWHERE, *(vertices[[0, -1]] for vertices in doors)])
 
 
-def find_closed_areas(division: Division, labels: tuple[Label, ...]) -> Iterator[Finding]:
-    """Find what is enclosed and still no cell: taken for solid, as no door leads into it."""
+def find_closed_areas(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
+    """Find what is enclosed and still no cell: taken for solid, as no door leads into it, or for outdoors."""
     graph = division.graph
+    strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    near, width = ALONG * graph.diameter, door_width(graph)
     cells = shapely.union_all([cell.polygon for cell in graph.cells])
     seam = 1e-6 * graph.diameter
     left = shapely.difference(division.space.region, shapely.buffer(cells, seam))
     for area in shapely.get_parts(left):
-        names = [label.text for label in labels if area.covers(shapely.Point(label.position))]
+        names = [label.text for label in sketch.labels if area.covers(shapely.Point(label.position))]
         if not names and area.area < SOLID * cells.area:
             continue
         inner = shapely.point_on_surface(area)
         what = f"{quoted(names)} stand{'s' * (len(names) == 1)} in an area" if names else "an area"
+        outline = shapely.difference(area.exterior, shapely.buffer(cells, near))
+        leads_out = is_open(outline, strokes, width, near)
         yield Finding(
-            "closed-area",
+            "open-area" if leads_out else "closed-area",
             Severity.WARNING if names else Severity.NOTE,
-            f"{what} that is closed on all sides and taken for solid",
-            "if it is a room, leave a gap where its door is",
+            f"{what} that is open to the outside and taken for outdoors"
+            if leads_out
+            else f"{what} that is closed on all sides and taken for solid",
+            "if a robot may drive there, draw a line where it ends"
+            if leads_out
+            else "if it is a room, leave a gap where its door is",
             (float(inner.x), float(inner.y)),
             (),
-            suggest_door(area, [cell.polygon for cell in graph.cells], graph),
+            None if leads_out else suggest_door(area, [cell.polygon for cell in graph.cells], graph),
         )
 
 
@@ -117,7 +133,8 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
             Severity.WARNING,
             f"doors join only {len(parts[0])} of {count} rooms",
             "walls or doors are not understood as they are meant: the picture of --figure shows how;"
-            " erase what is no wall, leave gaps for doors, or say what a layer is (--layer NAME=door)",
+            " erase what is no wall, leave gaps for doors, or say what a layer or color is"
+            " (--layer NAME=furniture); a photo is best traced at the drawing table",
         )
     for number in range(1, len(parts)):
         if len(parts[number]) < 2:
@@ -232,7 +249,8 @@ def find_cut_rooms(graph: CellGraph) -> Iterator[Finding]:
         "cut-rooms",
         Severity.NOTE,
         f"{len(unnamed)} of {len(graph.cells)} rooms have no name: furniture may cut rooms in pieces",
-        "erase what is no wall, or say which layers are none: --layer NAME=furniture",
+        "look at the picture of --figure; if it does, erase it, or say what it is by its layer or color:"
+        " --layer NAME=furniture",
         unnamed[0].center,
         tuple(cell.cell_id for cell in unnamed),
     )

@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from pilotage.findings.doors import door_width
 from pilotage.findings.finding import Finding, Severity
 from pilotage.findings.rooms import named
 from pilotage.geometry import Array
@@ -17,7 +18,10 @@ STEPS = 5
 """So many lines, one after the other, may be the steps of stairs."""
 
 MOST_LINES = 1000
-"""Among more lines of furniture no stairs are looked for: hatches."""
+"""Among more lines of furniture that are as long as steps no stairs are looked for: hatches."""
+
+WIDTHS = (0.6, 4.0)
+"""Steps are so many doors wide: racks are narrower."""
 
 DEPTH = (0.05, 0.6)
 """Steps lie so far apart, as a share of their width."""
@@ -35,6 +39,9 @@ def find_drivable_stairs(graph: CellGraph, interpretation: Interpretation | None
     pairs = zip(interpretation.sheet.marks, interpretation.meanings, strict=True)
     rings = [line.ring for mark, meaning in pairs if meaning.role is Role.FURNITURE for line in mark.outlines]
     lines = np.vstack([np.empty((0, 2, 2)), *(np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings)])
+    least, most = np.array(WIDTHS) * door_width(graph)
+    lengths = np.hypot(*(lines[:, 1] - lines[:, 0]).T)
+    lines = lines[(lengths >= least) & (lengths <= most)]
     for row in rows_of_steps(lines):
         x, y = lines[row].mean(axis=(0, 1)).tolist()
         for cell in graph.cells:

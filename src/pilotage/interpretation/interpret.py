@@ -47,8 +47,8 @@ class Interpretation:
 def interpret(sheet: Sheet, layers: Mapping[str, Role] = MappingProxyType({})) -> Interpretation:
     """Tell walls from all else.
 
-    `layers` tells the roles of layers, classes, ids and blocks where guessing fails. Raises NoWallsError if
-    nothing on the sheet can be a wall.
+    `layers` tells the roles of layers, classes, ids, blocks and colors where guessing fails. Raises
+    NoWallsError if nothing on the sheet can be a wall.
     """
     origin = origin_of(sheet)
     with np.errstate(divide="ignore", invalid="ignore"):  # corners that nearly coincide: GEOS sorts them out

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
-from pilotage.interpretation.sheet import Role
+from pilotage.interpretation.sheet import Mark, Role
 
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+")
 LOCAL_WORD = re.compile(r"[^\W\d_]+")
@@ -115,6 +115,16 @@ def role_named(names: Iterable[str], inherited: Role = Role.WALL) -> Role:
     if inherited is Role.IGNORE or Role.IGNORE in spoken:
         return Role.IGNORE
     return spoken[0] if spoken else inherited
+
+
+def colors_of(mark: Mark) -> list[str]:
+    """Write the colors of a mark's line and area, by which a person may name it.
+
+    >>> colors_of(Mark((), fill=(1.0, 0.4, 0.0)))
+    ['#ff6600']
+    """
+    colors = ([] if mark.pen is None else [mark.pen.color]) + ([] if mark.fill is None else [mark.fill])
+    return ["#" + bytes(round(255.0 * channel) for channel in color).hex() for color in colors]
 
 
 def told_role(names: Sequence[str], layers: Mapping[str, Role]) -> tuple[Role, str] | None:

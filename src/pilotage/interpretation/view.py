@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from pilotage.interpretation.glyphs import TALLEST, find_glyphs
-from pilotage.interpretation.names import guessed_role, told_role
+from pilotage.interpretation.names import colors_of, guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at
 from pilotage.interpretation.paper import Paper, boxes_of, find_paper
 from pilotage.interpretation.sheet import Role, Sheet, Text
@@ -61,8 +61,8 @@ class View:
 
 
 def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
-    """Look at a sheet; `layers` tells the roles of layers, classes, ids and blocks."""
-    told = [told_role(mark.names, layers) for mark in sheet.marks]
+    """Look at a sheet; `layers` tells the roles of layers, classes, ids, blocks and colors."""
+    told = [told_role((*colors_of(mark), *mark.names), layers) for mark in sheet.marks]
     closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
     open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]
     paper = find_paper(sheet, open_to_guess)

@@ -10,6 +10,7 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.interpretation import Interpretation, NoWallsError, Role, Sheet, interpret
+from pilotage.interpretation.names import colors_of
 from pilotage.io.hints import DrawingHints, read_hints, role_of, shading_of, table_beside
 from pilotage.io.kinds import Kind, recognize
 from pilotage.io.map_server import read_map_server
@@ -44,9 +45,9 @@ def open_map(
     """Read a drawing: SVG, PDF, DXF, a picture, Excalidraw, draw.io, an indoor map or a map_server file.
 
     The rest is for where guessing fails, and wins over the table beside the file (`office.svg.toml`):
-    `layers` tells what the marks of a layer, class, id or block are, as in `{"A-FURN": "ignore"}`; `labels`
-    names rooms at points in the file's own axes; `page` is the number or name of one of several pages or the
-    name of a level, which `plan.pdf#2` names, too; `shading` is of a picture.
+    `layers` tells what the marks of a layer, class, id, block or color are, as in `{"A-FURN": "ignore"}`;
+    `labels` names rooms at points in the file's own axes; `page` is the number or name of one of several
+    pages or the name of a level, which `plan.pdf#2` names, too; `shading` is of a picture.
 
     Raises FileError if the file is missing, of another kind, or shows no stroke, ValueError if a hint is
     invalid.
@@ -143,4 +144,5 @@ def unknown_layers(interpretation: Interpretation, layers: Mapping[str, Role]) -
     sheet = interpretation.sheet
     named = [mark.names for mark in sheet.marks] + [text.names for text in sheet.texts]
     known = {name for names in named for name in names}
+    known.update(color for mark in sheet.marks for color in colors_of(mark))
     return [f"nothing in the drawing is named {name!r}" for name in layers if name not in known]
