@@ -1,5 +1,6 @@
 """The packed buildings hold together: each can be driven, and its drawings can be read and divided."""
 
+import functools
 import json
 import runpy
 import sys
@@ -28,14 +29,19 @@ every_drawing = pytest.mark.parametrize(
 )
 
 
+@functools.cache
 def drawing(packed, hand):
     return open_map(packed.folder / f"{hand}.svg")
 
 
+@functools.cache
+def divided(packed, hand):
+    return decompose(drawing(packed, hand), DecompositionSettings())
+
+
 def places(packed, hand):
     """Where the middle of each labeled cell lies in the building [m]."""
-    sketch = drawing(packed, hand)
-    graph = decompose(sketch, DecompositionSettings())
+    sketch, graph = drawing(packed, hand), divided(packed, hand)
     middles = np.array([find_labeled(graph, label.text) for label in sketch.labels])
     return read_warp(packed.folder / f"{hand}.json", sketch).world_from_sketch(middles)
 
@@ -81,7 +87,7 @@ def test_every_room_can_be_reached_from_the_start(packed, hand):
 
 @every_drawing
 def test_each_named_room_is_a_cell(packed, hand):
-    graph = decompose(drawing(packed, hand), DecompositionSettings())
+    graph = divided(packed, hand)
     words = [cell.label for cell in graph.cells if cell.label]
     rooms = read_world_rooms(packed.folder / "rooms.geojson").names
 
