@@ -12,7 +12,7 @@ from svgelements import Matrix
 
 from pilotage.errors import FileError
 from pilotage.io import open_map, open_world
-from pilotage.io.svg import read_svg_sheet
+from pilotage.io.svg import read_svg_sheet, tree
 from pilotage.maps import Label, SchematicMap
 
 
@@ -480,12 +480,13 @@ def test_a_pipe_is_refused_and_not_waited_for(tmp_path, name):
         open_map(tmp_path / name)
 
 
-def test_a_few_elements_that_repeat_each_other_without_end_are_refused(tmp_path):
+def test_a_few_elements_that_repeat_each_other_without_end_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(tree, "MAX_ELEMENTS", 1000)
     layers = "".join(f'<g id="g{k}">' + f'<use href="#g{k - 1}"/>' * 10 + "</g>" for k in range(1, 8))
     path = tmp_path / "bomb.svg"
     path.write_text(f'<svg><defs><g id="g0"/>{layers}</defs><use href="#g7"/></svg>')
 
-    with pytest.raises(FileError, match="more than 100000 elements"):
+    with pytest.raises(FileError, match="more than 1000 elements"):
         open_map(path)
 
 
