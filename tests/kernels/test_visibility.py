@@ -12,15 +12,16 @@ GRID = (-2.0, -2.0, 0.1, 40, 40)
 
 def room_table():
     """Levels in the empty square |x|, |y| < 2, exactly, and the ranges themselves."""
-    ranges = np.empty((1600, DIRECTIONS))
-    for column in range(40):
-        for row in range(40):
-            x, y = -1.95 + 0.1 * column, -1.95 + 0.1 * row
-            for k in range(DIRECTIONS):
-                cosine, sine = math.cos(math.tau * k / DIRECTIONS), math.sin(math.tau * k / DIRECTIONS)
-                reach_x = ((2 if cosine > 0 else -2) - x) / cosine if abs(cosine) > 1e-9 else math.inf
-                reach_y = ((2 if sine > 0 else -2) - y) / sine if abs(sine) > 1e-9 else math.inf
-                ranges[40 * column + row, k] = min(reach_x, reach_y)
+    middles = -1.95 + 0.1 * np.arange(40)
+    angles = math.tau * np.arange(DIRECTIONS) / DIRECTIONS
+
+    def reach(ways):
+        """How far it is to the walls across the ways, from each middle by each way."""
+        ways = np.where(np.abs(ways) > 1e-9, ways, 1e-9)  # along a wall: the other wall is met first
+        return (np.where(ways > 0.0, 2.0, -2.0) - middles[:, np.newaxis]) / ways
+
+    across, up = reach(np.cos(angles)), reach(np.sin(angles))
+    ranges = np.minimum(across[:, np.newaxis], up).reshape(-1, DIRECTIONS)
     levels = np.round(np.log(ranges / 0.1) / kernel.LOG_STEP) + kernel.LOG_ZERO
     return np.clip(levels, 0, 255).astype(np.uint8), ranges
 

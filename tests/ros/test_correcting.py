@@ -1,5 +1,6 @@
 """The map is corrected while a robot drives, and the robot stays on it."""
 
+import functools
 import time
 from dataclasses import replace
 
@@ -60,7 +61,7 @@ def test_the_frame_stays_where_it_was(session):
 @settings(deadline=None)
 @given(st.floats(5.0, 95.0), st.floats(5.0, 75.0), st.floats(-3.0, 3.0))
 def test_a_pose_of_the_bent_frame_is_found_again_in_the_file(x, y, theta):
-    seen = CORRECTED
+    seen = corrected_frame()
     pose = Pose2(x, y, theta)
     there = seen.to_file(seen.pose_from_sketch(pose))
     back = seen.sketch.file_axes.pose_to_sketch(Pose2(*there))
@@ -121,15 +122,13 @@ def test_a_map_that_has_not_changed_is_not_told_again(monkeypatch):
     assert 1 == len(said)
 
 
+@functools.cache
 def corrected_frame() -> BentFrame:
     """Return the frame of the corrected flat."""
     session = walked()
     session.correct(correct_drawing(FLAT, session.sightings), len(session.sightings))
     assert isinstance(session.frame, BentFrame)
     return session.frame
-
-
-CORRECTED = corrected_frame()
 
 
 @pytest.mark.slow
