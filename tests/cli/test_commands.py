@@ -67,28 +67,30 @@ def test_a_wrong_call_is_exit_code_2(pilotage, words):
     assert "Traceback" not in outcome.err
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
+def test_light_commands_load_nothing_heavy():
+    """All in one process: what a command loads stays, so the first one that is not light is named."""
+    commands = (
         ("--help",),
         ("--version",),
         ("localize", "--help"),
         ("navigate", "--help"),
         ("demo", "--help"),
-        ("simplify", worlds.OFFICE.quick),
-    ],
-)
-def test_light_commands_load_nothing_heavy(words):
+        ("simplify", str(worlds.OFFICE.quick)),
+    )
     code = (
-        f"import sys; sys.argv = ['pilotage', *{[str(word) for word in words]!r}]\n"
+        "import sys\n"
         "from pilotage.cli import main\n"
-        "try: main()\n"
-        "except SystemExit: pass\n"
-        "print('HEAVY', [name for name in ('numba', 'matplotlib', 'scipy') if name in sys.modules])"
+        f"for words in {commands!r}:\n"
+        "    sys.argv = ['pilotage', *words]\n"
+        "    try: main()\n"
+        "    except SystemExit: pass\n"
+        "    heavy = [name for name in ('numba', 'matplotlib', 'scipy') if name in sys.modules]\n"
+        "    print('HEAVY', words[0], heavy)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    told = [line for line in done.stdout.splitlines() if line.startswith("HEAVY")]
 
-    assert "HEAVY []" == done.stdout.splitlines()[-1]
+    assert [f"HEAVY {words[0]} []" for words in commands] == told
 
 
 def test_importing_the_package_loads_no_library():
