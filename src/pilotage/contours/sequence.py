@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pilotage.contours.arcs import Bend, find_arcs
 from pilotage.contours.tangent import TangentFunction
-from pilotage.geometry import Polyline, wrap_angle
+from pilotage.geometry import Polyline, frozen_array, wrap_angle
 from pilotage.kernels.steps import ArcSteps, Steps
 
 REPEAT = 1e-9  # share of the length; a shorter segment is rounding
@@ -47,7 +47,7 @@ class ArcSequence:
             gap = along[0] - along[-1]
             around = along[-1] - along[0] + wrap_angle(float(gap))
             stops = np.concatenate([stops, 1.0 + stops[1:]])
-            along = np.concatenate([along, along + around])
+            along = frozen_array(np.concatenate([along, along + around]))  # as that of an open line
             starts = np.concatenate([starts, starts[-1] + starts[1:]])
         bends = np.array([bend.value for bend in self.bends])
         return ArcSteps(Steps(length * stops, along), starts, bends)
