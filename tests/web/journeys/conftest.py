@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
 from benchmarks.lib.table_browser import opened_browser
+from httpx2 import Client
 from playwright.sync_api import Browser, Page
 
 from web_page import Sheet
@@ -40,8 +41,18 @@ def page(browser: Browser, address: str) -> Iterator[Page]:
     page.wait_for_selector("body[data-ready]")
     yield page
     context.close()
+    end_drives(address)
 
     assert [] == errors
+
+
+def end_drives(address: str) -> None:
+    """End the drives of a test: one that is no longer watched goes on, beside the next test."""
+    server, _, token = address.partition("/?token=")
+    headers = {"Authorization": f"Bearer {token}"}
+    with Client(base_url=server, headers=headers) as client:
+        for drive in client.get("/api/sessions").json()["sessions"]:
+            client.delete(f"/api/sessions/{drive['session']}").raise_for_status()
 
 
 @pytest.fixture
