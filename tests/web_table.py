@@ -1,11 +1,15 @@
 """What tests of the drawing table share."""
 
+import asyncio
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from starlette.testclient import WebSocketTestSession
+
+Result = TypeVar("Result")
 
 TOKEN = "a-token-that-nobody-guesses"  # noqa: S105  # of servers that live for a test
 HOST = "127.0.0.1:8765"
@@ -39,6 +43,12 @@ def dxf(lines: list[tuple[float, float, float, float]]) -> str:
 
 TWO_ROOMS = dxf([(0, 0, 8, 0), (8, 0, 8, 5), (8, 5, 0, 5), (0, 5, 0, 0), (4, 0, 4, 2), (4, 3, 4, 5)])
 """Two rooms with a door, as DXF: y up."""
+
+
+def finished(work: Coroutine[Any, Any, Result]) -> Result:
+    """Run to the end in a thread of its own: a browser of other tests may keep a loop in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, work).result()
 
 
 class Talk:

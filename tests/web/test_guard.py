@@ -6,7 +6,7 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 from pilotage.web.guard import Access, Guard
-from web_table import LIVE, TOKEN
+from web_table import LIVE, TOKEN, finished
 
 
 def test_nobody_gets_in_without_the_token(stranger: TestClient) -> None:
@@ -92,6 +92,6 @@ def test_a_request_that_the_end_of_the_server_cuts_off_is_no_traceback(
         request.cancel()
         await request
 
-    asyncio.run(ask())
+    finished(ask())
 
     assert told == [one["status"] for one in sent if "status" in one]

@@ -5,10 +5,8 @@ import multiprocessing
 import tempfile
 import threading
 import time
-from collections.abc import Coroutine
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -22,14 +20,7 @@ from pilotage.web.history import History
 from pilotage.web.order import Order, Sent
 from pilotage.web.sessions import MOST_GOING, Client, Sessions
 from pilotage.web.workers import Jobs, Worker, WorkerError
-
-Result = TypeVar("Result")
-
-
-def finished(work: Coroutine[Any, Any, Result]) -> Result:
-    """Run to the end in a thread of its own: a browser of other tests may keep a loop in this one."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, work).result()
+from web_table import finished
 
 
 def test_a_slow_client_gets_the_newest_of_each_kind_and_nothing_piles_up() -> None:
