@@ -110,7 +110,7 @@ def test_findings_are_numbered_as_in_the_picture_and_all_of_a_kind_are_listed_if
     closed = [number for number, one in enumerate(found, 1) if one["kind"] == "room-without-door"]
 
     assert 5 == len(closed)
-    assert "warning: 2 more of this kind (room-without-door), listed by --all" in told
+    assert "note: 2 more of this kind (room-without-door), listed by --all" in told
     for number, one in enumerate(found, 1):
         assert (number in closed[3:]) is not any(line.startswith(f"{number}  ") for line in told)
         assert [one["text"] in line for line in every if line.startswith(f"{number}  ")] == [True]

@@ -42,7 +42,7 @@ ALONG = 0.003
 LEAST_DOOR = 0.4
 """A door to the outside has at least this share of the usual width."""
 
-FURNITURE = 0.25
+FURNITURE = 0.15
 """What has no name and is smaller than this share of the median room is probably furniture or a void."""
 
 DOOR_ADVICE = "leave a gap in its wall where the door is"
