@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pilotage.maps.cells.borders import JAMBS, NARROWING, borders_of, region_areas
 from pilotage.maps.cells.tessellation import Tessellation
 
-CORRIDOR_END = 1.6
+CORRIDOR_END = 1.5
 """Without jambs, both sides are this many times as wide: where two corridors cross, free space is sqrt(2)
 times as wide as they are, and more if one is the wider."""
 
@@ -29,7 +29,7 @@ if only one side is as much wider as both are at a door."""
 JAMBS_NARROWING, JAMBS_DEPTH = 1.1, 0.6
 """A wide door stands between jambs, with a lower narrowing and this area."""
 
-COLUMN, TABLE = 0.5, 1.5
+COLUMN, SCREEN = 0.5, 2.5
 """Two openings are one if what parts them is no wider than this share of one, or stands free and is no larger
 than so many times one."""
 
@@ -167,11 +167,11 @@ class Regions:
 
 
 def neighbors(tessellation: Tessellation) -> dict[int, set[int]]:
-    """Find for each chord the others that no more than a column or a table parts from it."""
+    """Find for each chord the others that no more than a column, a table or a screen parts from it."""
     lines = shapely.linestrings(tessellation.chords)
     reach = COLUMN * tessellation.widths
     pairs = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach).T
-    small = tessellation.post_sizes[tessellation.posts] <= TABLE * tessellation.widths[:, np.newaxis]
+    small = tessellation.post_sizes[tessellation.posts] <= SCREEN * tessellation.widths[:, np.newaxis]
     around: dict[int, list[int]] = {}
     for chord, end in np.argwhere(small).tolist():
         around.setdefault(int(tessellation.posts[chord, end]), []).append(chord)
