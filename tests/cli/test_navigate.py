@@ -72,6 +72,31 @@ def test_a_drive_leaves_journal_figure_and_animation(call, site):
     assert 1 == outcome.out.count("\n")
 
 
+@pytest.mark.parametrize("severity", ["0", "0.5"])
+def test_without_a_world_the_robot_drives_in_a_building_made_of_the_drawing(pilotage, site, severity):
+    drawing, _, folder, settings = site
+    words = ("--goal", "kitchen", "--start", "25,25,0", "--severity", severity, "--no-animation")
+    outcome = pilotage("navigate", drawing, *words, "--settings", settings, "-o", folder)
+    last = json.loads((folder / JOURNAL).read_text().splitlines()[-1])
+
+    assert 0 == outcome.code
+    assert "reached" == last["outcome"]
+
+
+def test_a_severity_is_of_a_building_made_of_the_drawing(call):
+    outcome = call("--goal", "kitchen", "--severity", "0.2")
+
+    assert 2 == outcome.code
+    assert "is of no use with --world" in outcome.err
+
+
+def test_a_true_start_needs_a_world(pilotage, site):
+    outcome = pilotage("navigate", site[0], "--goal", "kitchen", *SOUTH_WEST)
+
+    assert 2 == outcome.code
+    assert "is of no use without --world" in outcome.err
+
+
 def test_without_a_folder_only_the_end_is_told(pilotage, site, tmp_path):
     drawing, world, folder, settings = site
     before = sorted(tmp_path.iterdir())

@@ -26,13 +26,16 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.drives.loop import Start
     from pilotage.geometry import Pose2
-    from pilotage.maps import SchematicMap
+    from pilotage.maps import Atlas, SchematicMap
     from pilotage.maps.routing.roadmap import Point
     from pilotage.simulation import World
 
 
 LARGE = 300.0
 """A larger diagonal [m] of a world is worth a remark: few buildings are so large, drawings in pixels are."""
+
+SEVERITY = 0.5
+"""How little a building made of the drawing is like it, if nothing is said."""
 
 CORRECTED = ("corrected.svg", "corrected.yaml")
 """What a drive leaves of the corrected drawing."""
@@ -42,8 +45,22 @@ def navigate(
     drawing: Map,
     *,
     world: Annotated[
-        Path, typer.Option(help="The true building to drive in: SVG in metres, or a ROS map (YAML).")
-    ],
+        Path | None,
+        typer.Option(
+            help="The true building to drive in: SVG in metres, or a ROS map (YAML).",
+            show_default="one made of the drawing",
+        ),
+    ] = None,
+    severity: Annotated[
+        float | None,
+        typer.Option(
+            min=0.0,
+            max=1.0,
+            help="How little a building made of the drawing is like it: proportions, furniture, doors that "
+            "close, people. 0 is the drawing itself.",
+            show_default=str(SEVERITY),
+        ),
+    ] = None,
     goal: GoalPlaces = None,
     rounds: Annotated[
         int, typer.Option("--rounds", min=1, help="How often all goals are visited, as on patrol.")
@@ -103,7 +120,8 @@ def navigate(
 
     The robot has a laser, bad odometry and the drawing, which needs no scale and no furniture and may have
     its proportions wrong. From cell to cell, a room or a corridor each, it finds the way to the goal. Only
-    the simulator knows the *world*.
+    the simulator knows the *world*. Without one, a building is made of the drawing, and differs from it as
+    buildings do.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
     written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
@@ -118,6 +136,7 @@ def navigate(
 
     **Examples:**
 
+    - `pilotage navigate sketch.svg --goal kitchen -o run`
     - `pilotage navigate office.svg --world building.yaml --goal kitchen -o run`
     - `pilotage navigate office.svg --world building.svg --goal 440,150 --start 100,180,90 --from 2.1,-5.7,90`
     - Two goals, and back: `pilotage navigate office.svg --world building.svg --goal kitchen,hall --return`
@@ -127,24 +146,37 @@ def navigate(
     size = parse_footprint(footprint)
     if corrected and output is None:
         raise typer.BadParameter("a corrected drawing needs a folder, see --output", param_hint="--corrected")
-    from pilotage.io import open_world
-
+    if world is not None and severity is not None:
+        raise typer.BadParameter("is of no use with --world", param_hint="--severity")
+    if world is None and place is not None:
+        raise typer.BadParameter("is of no use without --world", param_hint="--from")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
-    building = open_world(world)
-    tell_size(world, building)
     target = goals_on(sketch, goal)
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
     chosen = chosen_settings(settings, time_limit, size)
     from pilotage.drives import WatchingPilot, set_out
-    from pilotage.maps import NotEnclosedError
+    from pilotage.maps import NotEnclosedError, build_atlas
     from pilotage.navigation import Tour
     from pilotage.simulation import StartError
 
     with busy("Reading the drawing"), signals_held():
         try:
+            atlas = build_atlas(sketch, chosen.localizer.atlas)
+            building = (
+                made_real(
+                    atlas,
+                    target[0],
+                    known,
+                    severity=SEVERITY if severity is None else severity,
+                    seed=seed,
+                    settings=chosen,
+                )
+                if world is None
+                else opened(world)
+            )
             navigator, simulator = set_out(
-                sketch,
+                atlas,
                 building,
                 Tour(tuple(target), rounds, returns),
                 start=known,
@@ -156,7 +188,7 @@ def navigate(
         except NotEnclosedError as error:
             raise FileError(str(error), drawing) from error
         except StartError as error:
-            raise FileError(str(error), world) from error
+            raise FileError(str(error), drawing if world is None else world) from error
     tell_worst(drawing, findings_of(sketch, settings))
     if output is not None:
         make_folder(output, force=force)
@@ -172,13 +204,42 @@ def navigate(
         say(f"See {output}.")
 
 
-def tell_size(path: Path, building: "World") -> None:
-    """Say how large a world is that may have been drawn in other units than metres."""
+def opened(path: Path) -> "World":
+    """Read a world; say how large it is if it may have been drawn in other units than metres."""
+    from pilotage.io import open_world
     from pilotage.io.world import size_of
 
+    building = open_world(path)
     size = size_of(building)
     if size > LARGE:
         say(f"pilotage: {path.name}: this world is {size:.0f} m across; a world is drawn in metres")
+    return building
+
+
+def made_real(
+    atlas: "Atlas",
+    goal: "Point | str",
+    start: "Start | None",
+    *,
+    severity: float,
+    seed: int,
+    settings: "Settings",
+) -> "World":
+    """Make a building of the drawing; the robot begins at its start, or in reach of its goal."""
+    import numpy as np
+
+    from pilotage.navigation.goal import find_goal, sketch_point
+    from pilotage.simulation.made_real import make_real
+
+    return make_real(
+        atlas,
+        severity,
+        np.random.default_rng(seed),
+        goal=find_goal(atlas, goal).point,
+        start=None if start is None else sketch_point(atlas, (start[0], start[1]), "start"),
+        heading=start[2] if start is not None and len(start) == 3 else None,
+        radius=settings.simulator.body.radius,
+    ).world
 
 
 def goals_on(sketch: "SchematicMap", words: str | None) -> "list[Point | str]":
