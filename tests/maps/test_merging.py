@@ -136,6 +136,14 @@ def test_two_doors_of_one_room_are_no_wide_opening_but_gaps_between_columns_are(
     assert 1 == len(thick([*halls, *between_columns]).cells)
 
 
+def test_a_free_standing_wall_parts_rooms_between_thick_walls_and_a_screen_none_between_lines():
+    halls, openings = [(0, 0, 8, 5), (0, 5.4, 8, 10)], [(0, 5, 2.2, 5.4), (5.8, 5, 8, 5.4)]
+    outline = [(0, 0), (8, 0), (8, 10), (0, 10), (0, 0)]
+
+    assert 2 == len(thick([*halls, *openings]).cells)
+    assert 1 == count_cells(outline, [(2.2, 5), (5.8, 5)])
+
+
 def test_two_names_in_a_corridor_keep_its_pieces_apart():
     labels = (Label("east", (2.0, 1.0)), Label("lobby", (14.0, 2.0)))
 

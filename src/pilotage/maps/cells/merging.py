@@ -30,8 +30,8 @@ JAMBS_NARROWING, JAMBS_DEPTH = 1.1, 0.6
 """A wide door stands between jambs, with a lower narrowing and this area."""
 
 COLUMN, SCREEN = 0.5, 2.5
-"""Two openings are one if what parts them is no wider than this share of one, or stands free and is no larger
-than so many times one."""
+"""Two openings are one if what parts them is no wider than this share of one or, between lines, stands free
+and is no larger than so many times one. What stands free and has a thickness may be a wall."""
 
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
@@ -52,6 +52,7 @@ class Regions:
         min_area: float,
         *,
         mouth: float,
+        solids_known: bool,
     ) -> None:
         self.mouth = mouth
         self.least = min_area * float(tessellation.areas[among].sum())
@@ -65,7 +66,7 @@ class Regions:
         self.widening: list[float] = tessellation.widening.tolist()
         self.drawn: list[bool] = drawn.tolist()
         self.told: list[bool] = tessellation.told.tolist()
-        self.beside = neighbors(tessellation)
+        self.beside = neighbors(tessellation, 0.0 if solids_known else SCREEN)
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
             first, second = tessellation.sides[chord].tolist()
@@ -166,12 +167,15 @@ class Regions:
         self.age[second] = -1
 
 
-def neighbors(tessellation: Tessellation) -> dict[int, set[int]]:
-    """Find for each chord the others that no more than a column, a table or a screen parts from it."""
+def neighbors(tessellation: Tessellation, screen: float) -> dict[int, set[int]]:
+    """Find for each chord the others that no more than a column parts from it, or what stands free.
+
+    What stands free is at most so many times as large as the chord is long.
+    """
     lines = shapely.linestrings(tessellation.chords)
     reach = COLUMN * tessellation.widths
     pairs = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach).T
-    small = tessellation.post_sizes[tessellation.posts] <= SCREEN * tessellation.widths[:, np.newaxis]
+    small = tessellation.post_sizes[tessellation.posts] <= screen * tessellation.widths[:, np.newaxis]
     around: dict[int, list[int]] = {}
     for chord, end in np.argwhere(small).tolist():
         around.setdefault(int(tessellation.posts[chord, end]), []).append(chord)
@@ -199,7 +203,7 @@ def merge_pieces(
     """
 
     def regions(mouth: float) -> NDArray[np.int64]:
-        found = Regions(tessellation, among, named, drawn, min_area, mouth=mouth)
+        found = Regions(tessellation, among, named, drawn, min_area, mouth=mouth, solids_known=solids_known)
         return found.merged()
 
     if not solids_known:
