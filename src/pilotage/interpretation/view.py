@@ -62,7 +62,10 @@ class View:
 
 def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     """Look at a sheet; `layers` tells the roles of layers, classes, ids, blocks and colors."""
-    told = [told_role((*colors_of(mark), *mark.names), layers) for mark in sheet.marks]
+    by_color = any(name.startswith("#") for name in layers)
+    told = [
+        told_role((*colors_of(mark), *mark.names) if by_color else mark.names, layers) for mark in sheet.marks
+    ]
     closing = {number: role for number, role in enumerate(told) if role is not None and role[0] in CLOSING}
     open_to_guess = [number for number, role in enumerate(told) if role is None or number in closing]
     paper = find_paper(sheet, open_to_guess)

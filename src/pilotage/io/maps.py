@@ -1,8 +1,10 @@
 """Open a drawing of any kind that can be read."""
 
+import gc
 import os
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -68,7 +70,8 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
     if table.is_file():
         hints = hints.over(read_hints(table))
         remarks.append(f"hints are taken from {table.name}")
-    sketch, interpretation = read_drawing(file, hints)
+    with garbage_kept():
+        sketch, interpretation = read_drawing(file, hints)
     if interpretation is not None:
         remarks += unknown_layers(interpretation, hints.layers)
     elif hints.layers:
@@ -79,6 +82,18 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
         for x, y in sketch.sketch_from_file(np.array([point], dtype=np.float64))
     )
     return Drawing(replace(sketch, labels=labels + sketch.labels), interpretation, tuple(remarks))
+
+
+@contextmanager
+def garbage_kept() -> Iterator[None]:
+    """Let the garbage collector rest: it would look again and again at objects that all stay."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def read_drawing(file: Path, hints: DrawingHints) -> tuple[SchematicMap, Interpretation | None]:
