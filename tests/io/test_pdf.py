@@ -5,6 +5,7 @@ import pytest
 from PIL import Image, ImageDraw
 
 from pilotage.errors import FileError
+from pilotage.interpretation import interpret
 from pilotage.io.pdf import PicturePageError, read_pdf, read_picture_page
 from pilotage.io.pdf.words import Letter, joined
 from pilotage.io.picture import sheet_of
@@ -52,6 +53,13 @@ def test_lines_and_areas_keep_color_width_and_dashes(tmp_path):
     assert (area.fill, area.pen) == ((0, 0, 1), None)
     assert area.outlines[0].closed
     assert sheet.page == (0, 0, 200, 100)
+
+
+def test_a_line_of_a_negative_width_is_a_hairline(tmp_path):
+    sheet = read(tmp_path, "-1 w 10 20 m 60 20 l S 1 w 10 20 m 10 60 l S 60 20 m 60 60 l S")
+
+    assert [0.0, 1.0, 1.0] == [mark.pen.width for mark in sheet.marks]
+    assert 3 == len(interpret(sheet).sketch.strokes)
 
 
 def test_matrices_and_curves(tmp_path):

@@ -4,7 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
 
@@ -72,6 +72,8 @@ class SheetBuilder:
         self._vertices += sum(map(len, kept))
         if self._vertices > MOST_VERTICES:
             raise FileError(f"a drawing must have at most {MOST_VERTICES:,} vertices, found more", self.path)
+        if pen is not None and not 0.0 <= pen.width < math.inf:
+            pen = replace(pen, width=0.0)  # a width that none can be is not told
         self.marks.append(Mark(kept, pen, fill, plain_names(names), tuple(groups), source))
         self._check_size()
 
