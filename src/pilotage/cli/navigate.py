@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pilotage.config import Settings
     from pilotage.drives.loop import Start
     from pilotage.geometry import Pose2
-    from pilotage.maps import Atlas, SchematicMap
+    from pilotage.maps import SchematicMap
     from pilotage.maps.routing.roadmap import Point
     from pilotage.simulation import World
 
@@ -120,8 +120,8 @@ def navigate(
 
     The robot has a laser, bad odometry and the drawing, which needs no scale and no furniture and may have
     its proportions wrong. From cell to cell, a room or a corridor each, it finds the way to the goal. Only
-    the simulator knows the *world*. Without one, a building is made of the drawing, and differs from it as
-    buildings do.
+    the simulator knows the *world*. Without one, a building is made of the drawing, with other proportions
+    and furniture.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
     written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
@@ -155,7 +155,8 @@ def navigate(
     known = start_on(sketch, start)
     truly = None if place is None else true_pose(place)
     chosen = chosen_settings(settings, time_limit, size)
-    from pilotage.drives import WatchingPilot, set_out
+    building = None if world is None else opened(world)
+    from pilotage.drives import WatchingPilot, make_building, set_out
     from pilotage.maps import NotEnclosedError, build_atlas
     from pilotage.navigation import Tour
     from pilotage.simulation import StartError
@@ -163,18 +164,10 @@ def navigate(
     with busy("Reading the drawing"), signals_held():
         try:
             atlas = build_atlas(sketch, chosen.localizer.atlas)
-            building = (
-                made_real(
-                    atlas,
-                    target[0],
-                    known,
-                    severity=SEVERITY if severity is None else severity,
-                    seed=seed,
-                    settings=chosen,
-                )
-                if world is None
-                else opened(world)
-            )
+            if building is None:
+                unlike = SEVERITY if severity is None else severity
+                made = make_building(atlas, target[0], known, severity=unlike, seed=seed, settings=chosen)
+                building = made.world
             navigator, simulator = set_out(
                 atlas,
                 building,
@@ -214,32 +207,6 @@ def opened(path: Path) -> "World":
     if size > LARGE:
         say(f"pilotage: {path.name}: this world is {size:.0f} m across; a world is drawn in metres")
     return building
-
-
-def made_real(
-    atlas: "Atlas",
-    goal: "Point | str",
-    start: "Start | None",
-    *,
-    severity: float,
-    seed: int,
-    settings: "Settings",
-) -> "World":
-    """Make a building of the drawing; the robot begins at its start, or in reach of its goal."""
-    import numpy as np
-
-    from pilotage.navigation.goal import find_goal, sketch_point
-    from pilotage.simulation.made_real import make_real
-
-    return make_real(
-        atlas,
-        severity,
-        np.random.default_rng(seed),
-        goal=find_goal(atlas, goal).point,
-        start=None if start is None else sketch_point(atlas, (start[0], start[1]), "start"),
-        heading=start[2] if start is not None and len(start) == 3 else None,
-        radius=settings.simulator.body.radius,
-    ).world
 
 
 def goals_on(sketch: "SchematicMap", words: str | None) -> "list[Point | str]":

@@ -14,6 +14,7 @@ from pilotage.maps import Atlas, SchematicMap, check_reachable
 from pilotage.navigation import Navigator, Place, Step, Tour, find_goal, sketch_point
 from pilotage.perception import LaserScan, Odometry
 from pilotage.simulation import Scene, Simulator, SimulatorSettings, World, find_start
+from pilotage.simulation.made_real import MadeReal, make_real
 
 Start = tuple[float, float] | tuple[float, float, float]
 
@@ -78,6 +79,31 @@ def set_out(
         if known is not None:
             planner.roadmap.find(known, target)  # zones may be in the way
     return navigator, put_down(world, world_start, np.random.default_rng(seed), settings.simulator)
+
+
+def make_building(
+    atlas: Atlas,
+    goal: Place,
+    start: Start | None,
+    *,
+    severity: float,
+    seed: int,
+    settings: Settings,
+) -> MadeReal:
+    """Make a building of a drawing, with the robot at its start, told or marked, or in reach of its goal.
+
+    Goal and start are as in `set_out`; `severity`, from 0 to 1, says how little the building is like the
+    drawing. Raises PilotageError if goal or start cannot be used.
+    """
+    return make_real(
+        atlas,
+        severity,
+        np.random.default_rng(seed),
+        goal=find_goal(atlas, goal).point,
+        start=atlas.sketch.start if start is None else sketch_point(atlas, (start[0], start[1]), "start"),
+        heading=start[2] if start is not None and len(start) == 3 else None,
+        radius=settings.simulator.body.radius,
+    )
 
 
 def put_down(

@@ -8,7 +8,7 @@ import numpy as np
 
 from pilotage.config import Settings
 from pilotage.correction import Sighting, append_sighting
-from pilotage.drives import Drive, Instant, set_out
+from pilotage.drives import Drive, Instant, make_building, set_out
 from pilotage.errors import FileError, PilotageError
 from pilotage.evaluation.warp import Warp, read_warp
 from pilotage.geometry import Array, Pose2
@@ -16,9 +16,7 @@ from pilotage.io import open_world
 from pilotage.io.records import is_records
 from pilotage.maps import Atlas, CellGraph, build_atlas
 from pilotage.navigation import Navigator, Step
-from pilotage.navigation.goal import find_goal
 from pilotage.simulation import Scene, Simulator
-from pilotage.simulation.made_real import make_real
 from pilotage.simulation.proportions import Proportions
 from pilotage.web.drawings import Json, Page, UnreadableError, describe_drawing, read_sent
 from pilotage.web.frames import FrameMaker, Truth, describe_world
@@ -188,16 +186,13 @@ def made_real(
     settings: Settings,
 ) -> Stage:
     """Make a building of the drawing, and put the robot into it."""
-    found = find_goal(atlas, goal)
-    start = atlas.sketch.start if told is None else on_sketch(page, told)
-    made = make_real(
+    made = make_building(
         atlas,
-        order.severity,
-        np.random.default_rng(order.seed),
-        goal=found.point,
-        start=start,
-        heading=told[2] if told is not None and len(told) == 3 else None,
-        radius=settings.simulator.body.radius,
+        goal,
+        told,  # type: ignore[arg-type]
+        severity=order.severity,
+        seed=order.seed,
+        settings=settings,
     )
     navigator, simulator = set_out(
         atlas,
