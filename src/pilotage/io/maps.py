@@ -70,7 +70,7 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
     if table.is_file():
         hints = hints.over(read_hints(table))
         remarks.append(f"hints are taken from {table.name}")
-    with garbage_kept():
+    with collection_paused():
         sketch, interpretation = read_drawing(file, hints)
     if interpretation is not None:
         remarks += unknown_layers(interpretation, hints.layers)
@@ -85,8 +85,8 @@ def open_drawing(file: Path, hints: DrawingHints | None = None) -> Drawing:
 
 
 @contextmanager
-def garbage_kept() -> Iterator[None]:
-    """Let the garbage collector rest: it would look again and again at objects that all stay."""
+def collection_paused() -> Iterator[None]:
+    """Let the garbage collector rest: the objects of a drawing all stay, and it would visit them often."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -156,6 +156,8 @@ def most_walls(interpretation: Interpretation) -> str:
 
 def unknown_layers(interpretation: Interpretation, layers: Mapping[str, Role]) -> list[str]:
     """Tell which of the layers that a person named are nowhere in the drawing."""
+    if not layers:
+        return []
     sheet = interpretation.sheet
     named = [mark.names for mark in sheet.marks] + [text.names for text in sheet.texts]
     known = {name for names in named for name in names}

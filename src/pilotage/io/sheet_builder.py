@@ -73,7 +73,7 @@ class SheetBuilder:
         if self._vertices > MOST_VERTICES:
             raise FileError(f"a drawing must have at most {MOST_VERTICES:,} vertices, found more", self.path)
         if pen is not None and not 0.0 <= pen.width < math.inf:
-            pen = replace(pen, width=0.0)  # a width that none can be is not told
+            pen = replace(pen, width=0.0)  # an impossible width: a hairline
         self.marks.append(Mark(kept, pen, fill, plain_names(names), tuple(groups), source))
         self._check_size()
 
