@@ -289,6 +289,7 @@ def test_windows_close_a_house_within_a_wall_around_its_plot():
 
     graph = graph_of((*plot, *walls, *door, *panes))
 
+    assert graph.gateways
     assert all(shapely.Point(30, 78).distance(shapely.LineString(g.segment)) > 8 for g in graph.gateways)
 
 

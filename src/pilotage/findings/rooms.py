@@ -92,7 +92,9 @@ def find_closed_areas(sketch: SchematicMap, division: Division) -> Iterator[Find
     graph = division.graph
     strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
     near, width = ALONG * graph.diameter, door_width(graph)
-    cells = shapely.union_all([cell.polygon for cell in graph.cells])
+    rooms = [cell.polygon for cell in graph.cells]
+    cells = shapely.union_all(rooms)
+    beside = shapely.buffer(cells, near)
     seam = 1e-6 * graph.diameter
     left = shapely.difference(division.space.region, shapely.buffer(cells, seam))
     for area in shapely.get_parts(left):
@@ -101,21 +103,15 @@ def find_closed_areas(sketch: SchematicMap, division: Division) -> Iterator[Find
             continue
         inner = shapely.point_on_surface(area)
         what = f"{quoted(names)} stand{'s' * (len(names) == 1)} in an area" if names else "an area"
-        outline = shapely.difference(area.exterior, shapely.buffer(cells, near))
-        leads_out = is_open(outline, strokes, width, near)
-        yield Finding(
-            "open-area" if leads_out else "closed-area",
-            Severity.WARNING if names else Severity.NOTE,
-            f"{what} that is open to the outside and taken for outdoors"
-            if leads_out
-            else f"{what} that is closed on all sides and taken for solid",
-            "if a robot may drive there, draw a line where it ends"
-            if leads_out
-            else "if it is a room, leave a gap where its door is",
-            (float(inner.x), float(inner.y)),
-            (),
-            None if leads_out else suggest_door(area, [cell.polygon for cell in graph.cells], graph),
-        )
+        if is_open(shapely.difference(area.exterior, beside), strokes, width, near):
+            kind, why, mend = "open-area", "open to the outside and taken for outdoors", None
+            advice = "if a robot may drive there, draw a line where it ends"
+        else:
+            kind, why = "closed-area", "closed on all sides and taken for solid"
+            advice, mend = "if it is a room, leave a gap where its door is", suggest_door(area, rooms, graph)
+        severity = Severity.WARNING if names else Severity.NOTE
+        where = float(inner.x), float(inner.y)
+        yield Finding(kind, severity, f"{what} that is {why}", advice, where, (), mend)
 
 
 def find_parts(graph: CellGraph) -> Iterator[Finding]:

@@ -65,7 +65,8 @@ def panes(
     pieces = parts_of(shapely.difference(shapely.multilinestrings(touching), solid))
     reach = shapely.buffer(solid, hair)
     shapely.prepare(reach)
-    from_jambs = shapely.intersects(reach, shapely.points(straight(pieces))).all(axis=1)
+    from_jambs = shapely.intersects(reach, shapely.get_point(pieces, 0))
+    from_jambs &= shapely.intersects(reach, shapely.get_point(pieces, -1))
     lengths = shapely.length(pieces)
     pieces = pieces[from_jambs & (lengths > thickness) & (lengths <= widest)]
     found = []

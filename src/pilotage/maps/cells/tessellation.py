@@ -31,8 +31,8 @@ class Tessellation:
     behind: Array  # (n,) the same where one is through the wall that it is in
     sides: NDArray[np.int64]  # (n, 2) the pieces left and right of each chord
     told: NDArray[np.bool_]  # (n,) which chords are doors that the file itself tells
-    posts: NDArray[np.int64]  # (n, 2) number of the connected walls at either end of each chord
-    post_sizes: Array  # how large the walls of a number are, along the diagonal of their box
+    posts: NDArray[np.int64]  # (n, 2) number of the group of connected walls at either end of each chord
+    post_sizes: Array  # diagonal of the box around each group of walls, indexed by its number
 
     @property
     def widening(self) -> Array:
@@ -113,9 +113,9 @@ def shared_edges(pieces: NDArray[np.object_]) -> tuple[Array, NDArray[np.int64]]
 
 
 def find_posts(openings: Array, walls: Array) -> tuple[NDArray[np.int64], Array]:
-    """Find which walls (k, 4) hang together: the number of those at either end of openings (n, 2), and sizes.
+    """Group walls (k, 4) that share ends; they cross nowhere.
 
-    Walls hang together if they share an end; they cross nowhere.
+    Returns the group at either end of each opening (n, 2, 2), (n, 2), and the size of each group.
     """
     ends, numbers = np.unique(walls.reshape(-1, 2), axis=0, return_inverse=True)
     graph = rustworkx.PyGraph()
