@@ -11,11 +11,10 @@ from buildings import coarse, flat, readings_of, walk
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Similarity2
 from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings
-from pilotage.localization.belief import Belief
 from pilotage.localization.global_search import global_search
 from pilotage.localization.keyframes import append_keyframe
-from pilotage.localization.localizer import log_birth_factor
 from pilotage.localization.observation import observe
+from pilotage.localization.particle_filter import Posterior, log_birth_factor
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
 from pilotage.localization.sensor_model import SensorModel
 from pilotage.maps import SchematicMap, build_atlas
@@ -263,10 +262,10 @@ def test_a_search_of_the_whole_drawing_finds_the_place(atlas):
 
 def test_a_birth_is_weighed_against_what_the_tracks_explained_after_the_first_keyframe_of_the_window():
     window = append_keyframe((), observe(readings_of(PATH)[0][0], (), Pose2.identity()))
-    before = Belief(Tracks((), 0.0), window=window)
+    before = Posterior(Tracks((), 0.0))
     first = before.with_evidence(window, 2.0)
     second = first.with_evidence(window, 0.5)
-    factors = [log_birth_factor(one, SMALL.tracks) for one in (before, first, second)]
+    factors = [log_birth_factor(one, window[-1].travel, SMALL.tracks) for one in (before, first, second)]
 
     assert [0.0, 0.0, -0.5] == pytest.approx([factor - factors[0] for factor in factors])
 

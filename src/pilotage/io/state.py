@@ -29,6 +29,7 @@ from pilotage.localization import (
 )
 from pilotage.localization.belief import Belief
 from pilotage.localization.keyframes import Keyframe
+from pilotage.localization.particle_filter import Posterior
 from pilotage.localization.particles import Particles
 from pilotage.localization.sensor_model import SparseScan
 from pilotage.localization.state import LocalizerState
@@ -41,7 +42,7 @@ from pilotage.shape import PartialShape
 from pilotage.shape.corners import Corners
 from pilotage.shape.partial import EndCause
 
-VERSION = 2
+VERSION = 3
 """Of the format; a state of another version is refused."""
 
 LARGEST = 1 << 27
@@ -56,9 +57,9 @@ NAMED, ARRAY, FREE = "type", "array", "items"
 TYPES: Mapping[str, type] = {
     kind.__name__: kind
     for kind in (
-        Affine2, Belief, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography, Keyframe, LocalMap,
-        LocalizerState, Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2, PoseHypothesis,
-        Sighting, SparseScan, Status, Track, Tracks,
+        Affine2, Belief, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography,
+        Keyframe, LocalMap, LocalizerState, Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2,
+        PoseHypothesis, Posterior, Sighting, SparseScan, Status, Track, Tracks,
     )
 }  # fmt: skip
 """All types that a state may hold."""

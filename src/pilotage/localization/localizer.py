@@ -6,19 +6,23 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pilotage.geometry import Array, Pose2, segments_of
-from pilotage.localization.belief import Belief, first_belief
-from pilotage.localization.blocked_way import BlockedWay, log_ratio_of_ways
+from pilotage.localization.belief import Belief
+from pilotage.localization.blocked_way import BlockedWay
 from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
-from pilotage.localization.global_search import SCANS, global_search
-from pilotage.localization.keyframes import append_blocked_way, append_keyframe, choose_keyframes
-from pilotage.localization.motion_model import propagate
+from pilotage.localization.global_search import SCANS
+from pilotage.localization.keyframes import (
+    Keyframe,
+    append_blocked_way,
+    append_keyframe,
+    choose_keyframes,
+)
 from pilotage.localization.observation import Observation, observe
-from pilotage.localization.particles import Particles, join
+from pilotage.localization.particle_filter import ParticleFilter
 from pilotage.localization.prior import Prior, check_scale
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
 from pilotage.localization.state import LocalizerState, fingerprint
-from pilotage.localization.tracks import Tracks, TrackSettings, cluster, leave, normalized, rare
+from pilotage.localization.tracks import Tracks, TrackSettings
 from pilotage.maps import Atlas, AtlasSettings, SchematicMap, build_atlas
 from pilotage.perception import LaserScan, Odometry
 from pilotage.scan_matching import ScanMatcher, ScanMatchingSettings
@@ -34,8 +38,6 @@ SETTLED_EVERY = 2.0
 """[m] of travel between two searches while the place is settled."""
 SETTLED_PROPOSALS = 0.25
 """Share of the proposals that a search tries while the place is settled."""
-MIN_CARRIED = 0.05
-"""[m] of travel since a search that counts at least: a robot that only turns may have been carried, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +95,11 @@ class Localizer:
             self._prior = replace(self._prior, log_scale=self._prior.given_log_scale)
         self._rng = np.random.default_rng(seed)
         self._model = SensorModel(self.atlas, self.settings.sensor)
+        self._filter = ParticleFilter(
+            self._model, self._prior, self.settings.tracks, self.settings.proposals, BIRTH_COUNT
+        )
         self.scan_matcher = ScanMatcher(self.settings.scan_matching)
-        self._belief = first_belief(start, self.atlas, self._prior, self.settings.tracks, self._rng)
+        self._belief = Belief(self._filter.first(start, self._rng))
 
     @classmethod
     def resumed(
@@ -127,8 +132,13 @@ class Localizer:
     def state(self) -> LocalizerState:
         """All that was learned so far; `resumed` goes on from it."""
         matcher = {name: value for name, value in vars(self.scan_matcher).items() if name != "settings"}
-        generator = self._rng.bit_generator.state
-        return LocalizerState(fingerprint(self.atlas.sketch), self._belief, matcher, generator, self._scale)
+        return LocalizerState(
+            fingerprint(self.atlas.sketch),
+            self._belief,
+            matcher,
+            self._rng.bit_generator.state,
+            self._scale,
+        )
 
     @property
     def estimate(self) -> Estimate:
@@ -140,12 +150,12 @@ class Localizer:
     @property
     def tracks(self) -> Tracks:
         """The places where the robot may be."""
-        return self._belief.tracks
+        return self._belief.posterior.tracks
 
     @property
     def log_evidence(self) -> float:
         """The log-evidence of this drawing over that of any building, since the first scan [nats]."""
-        return self._belief.log_evidence
+        return self._belief.posterior.log_evidence
 
     def sample(self, count: int) -> Array:
         """Pick states of equally probable particles, for planning over all tracks, (6, count)."""
@@ -178,28 +188,15 @@ class Localizer:
 
         `update` calls it. Who compares one log with many drawings may give them the same observations.
         """
-        belief, settings = self._belief, self.settings.tracks
+        belief = self._belief
         window = append_keyframe(belief.window, seen)
-        particles, log_null = belief.tracks.particles, belief.tracks.log_null
-        if belief.window:
-            particles = propagate(particles, seen.motion, self.atlas, self._prior, self._rng)
-            leaving = settings.leaving * math.hypot(seen.motion.x, seen.motion.y) * math.exp(belief.log_told)
-            particles, log_null = leave(particles, log_null, leaving)
-        log_ratio = window[-1].novelty * self._model.log_ratio(particles.states, seen.scan)
-        particles, log_null, log_total = normalized(particles.scaled(log_ratio), log_null)
-        belief = belief.with_evidence(window, log_total)
-        share = search_effort(belief)
-        if share > 0.0:
-            particles = join([particles, self._births(belief, share)])
-            belief = replace(belief, searched=window[-1].travel)
-        tracks = cluster(particles, log_null, self.atlas, settings, self._rng)
-        fits = (*belief.fits, *self._fits(tracks, seen.scan))[-FIT_MEMORY:]
-        fit = sum(fits) / len(fits) if tracks.tracks else 0.0
-        estimate = summarize(tracks, fit, seen.stamp, window[-1].travel, self.atlas)
-        self._belief = replace(
-            belief, tracks=tracks, fits=fits, at_keyframe=estimate, motion=Pose2.identity(), estimate=estimate
-        )
-        return estimate
+        effort = search_effort(belief, window)
+        posterior = self._filter.updated(belief.posterior, window, seen.motion, self._rng, effort=effort)
+        fits = (*belief.fits, *self._fits(posterior.tracks, seen.scan))[-FIT_MEMORY:]
+        fit = sum(fits) / len(fits) if posterior.tracks.tracks else 0.0
+        belief = Belief(posterior, window, fits)
+        self._belief = self._summed_up(belief, fit, seen.stamp)
+        return self.estimate
 
     def add_blocked_way(self, way: BlockedWay) -> None:
         """Weigh all tracks by a way that the robot found blocked, in its frame at the last update.
@@ -213,19 +210,16 @@ class Localizer:
         window = append_blocked_way(belief.window, way.moved(belief.motion))
         if window is belief.window:
             return
-        particles = belief.tracks.particles
-        log_ratio = log_ratio_of_ways(particles.states, window[-1].blocked[-1:], self.atlas)
-        particles, log_null, log_total = normalized(particles.scaled(log_ratio), belief.tracks.log_null)
-        tracks = cluster(particles, log_null, self.atlas, self.settings.tracks, self._rng)
-        estimate = summarize(tracks, last.fit, last.stamp, window[-1].travel, self.atlas)
-        belief = replace(belief.with_evidence(window, log_total), tracks=tracks, at_keyframe=estimate)
-        self._belief = belief.moved(belief.motion, self.estimate.stamp, self.atlas)
+        posterior = self._filter.with_blocked_way(belief.posterior, window, self._rng)
+        stamp = self.estimate.stamp
+        belief = replace(belief, posterior=posterior, window=window)
+        belief = self._summed_up(belief, last.fit, last.stamp)
+        self._belief = belief.moved(belief.motion, stamp, self.atlas)
 
-    def _births(self, belief: Belief, share: float) -> Particles:
-        """Let tracks be born where a search of the whole drawing explains the last metres (3.4)."""
-        count = round(share * self.settings.proposals)
-        found = global_search(belief.window, self._model, self._prior, count, self._rng)
-        return found.resampled(BIRTH_COUNT, self._rng).scaled(log_birth_factor(belief, self.settings.tracks))
+    def _summed_up(self, belief: Belief, fit: float, stamp: float) -> Belief:
+        """Estimate the place at the newest keyframe."""
+        estimate = summarize(belief.posterior.tracks, fit, stamp, belief.window[-1].travel, self.atlas)
+        return replace(belief, at_keyframe=estimate, estimate=estimate)
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:
         """Measure the fit of a scan at the leading track, if there is one."""
@@ -235,21 +229,7 @@ class Localizer:
         return (self._model.fit(leading.states[:, int(leading.log_weights.argmax())], scan),)
 
 
-def log_birth_factor(belief: Belief, settings: TrackSettings) -> float:
-    """Return what the log-mass of a birth adds to the log-evidence of the window there [nats].
-
-    A birth says that the robot was carried there, or was on no drawn place, when the window began. By Bayes'
-    rule its mass is the prior of that, times the evidence of the window there, over the evidence that all
-    tracks together had since. That of the first keyframe is left out: a search weighs a window by a few of
-    its keyframes, so births are weak already, and with it fewer runs ended right (decision 0023).
-    """
-    distance = max(belief.window[-1].travel - belief.searched, MIN_CARRIED)
-    log_prior = math.log(rare(settings.moving * distance)) + belief.log_told
-    since = sum(log_total for _, log_total in belief.log_totals[1:])
-    return log_prior - since
-
-
-def search_effort(belief: Belief) -> float:
+def search_effort(belief: Belief, window: tuple[Keyframe, ...]) -> float:
     """Return the share of the proposals that a search tries at the newest keyframe; 0 for no search.
 
     There is none at the first keyframe: its particles were drawn just before. Then all are tried at every
@@ -259,5 +239,5 @@ def search_effort(belief: Belief) -> float:
         return 0.0
     if belief.at_keyframe.probability < SETTLED:
         return 1.0
-    is_due = belief.window[-1].travel - belief.searched >= SETTLED_EVERY
+    is_due = window[-1].travel - belief.posterior.searched >= SETTLED_EVERY
     return SETTLED_PROPOSALS if is_due else 0.0
