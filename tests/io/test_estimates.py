@@ -38,6 +38,7 @@ def test_a_line_holds_what_it_should(tmp_path):
         **place,
         "probability": 0.75,
         "fit": 0.5,
+        "evidence": 0.0,
         "hypotheses": [
             {"cell": "c1", **place, "probability": 0.75},
             {"cell": "c2", **place, "probability": 0.25},

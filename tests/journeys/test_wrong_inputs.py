@@ -176,6 +176,7 @@ def test_estimates_on_standard_output_are_json_lines(pilotage):
         "scale",
         "probability",
         "fit",
+        "evidence",
         "hypotheses",
     }
     assert all(names == set(one) for one in records)

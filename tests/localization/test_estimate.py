@@ -11,7 +11,7 @@ from buildings import coarse, flat
 from knowing import estimate_at, estimate_of, hypothesis_at
 from pilotage.geometry import Affine2, Pose2
 from pilotage.localization import Status, Track, Tracks
-from pilotage.localization.estimate import MISMATCH_AFTER, summarize
+from pilotage.localization.estimate import MISMATCH, summarize
 from pilotage.localization.particles import Particles
 from pilotage.maps import build_atlas
 from strategies import poses
@@ -64,17 +64,17 @@ def test_one_track_is_one_hypothesis_where_it_stands():
     )
 
 
-def test_a_drawing_that_explains_nothing_is_to_blame_after_some_metres_only():
+def test_a_drawing_is_to_blame_if_other_buildings_explain_the_way_far_better():
     tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
 
-    assert Status.LOST is summarize(tracks, 0.1, 0.0, MISMATCH_AFTER - 1.0, ATLAS).status
-    assert Status.MISMATCH is summarize(tracks, 0.1, 0.0, MISMATCH_AFTER, ATLAS).status
+    assert Status.LOST is summarize(tracks, 0.1, 0.0, MISMATCH, ATLAS).status
+    assert Status.MISMATCH is summarize(tracks, 0.1, 0.0, MISMATCH - 0.1, ATLAS).status
 
 
 def test_places_too_improbable_to_count_are_still_told():
     tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
     faint = Tracks((Track(tracks.particles.scaled(-2000.0)),), 0.0)
-    estimate = summarize(faint, 0.0, 0.0, 20.0, ATLAS)
+    estimate = summarize(faint, 0.0, 0.0, -2000.0, ATLAS)
 
     assert Status.MISMATCH is estimate.status
     assert 0.0 == estimate.probability

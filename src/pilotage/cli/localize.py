@@ -74,7 +74,8 @@ def localize(
     *status* located, lost or mismatch, the *place* and *cell* it is in, *x* and
     *y* in the drawing's own units and axes (in SVG, y points down), *heading*
     in radians counter-clockwise on the page, *scale* in drawing units per metre,
-    *probability* and *fit* from 0 to 1, and the *hypotheses* it holds.
+    *probability* and *fit* from 0 to 1, the *evidence* for this drawing over other
+    buildings, as a natural logarithm, and the *hypotheses* it holds.
 
     **Examples:**
 

@@ -29,6 +29,7 @@ def estimate_record(estimate: Estimate, sketch: SchematicMap) -> dict[str, objec
         **place_record(estimate.sketch_from_base, sketch),
         "probability": rounded(estimate.probability),
         "fit": rounded(estimate.fit),
+        "evidence": rounded(estimate.log_evidence),
         "hypotheses": [
             {
                 "cell": hypothesis.cell_id,

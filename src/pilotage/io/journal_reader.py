@@ -54,6 +54,7 @@ def recorded(record: Record, sketch: SchematicMap) -> Recorded:
         number(record.get("cell_probability")),
         share(record["fit"]),
         words(record["place"]),
+        limited(record.get("evidence", 0.0)),
         sketch.file_axes,
     )
     command = record.get("command") or {"linear": 0.0, "angular": 0.0}

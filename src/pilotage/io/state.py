@@ -29,6 +29,7 @@ from pilotage.localization import (
 )
 from pilotage.localization.belief import Belief
 from pilotage.localization.keyframes import Keyframe
+from pilotage.localization.other_buildings import ElsewhereState
 from pilotage.localization.particle_filter import Posterior
 from pilotage.localization.particles import Particles
 from pilotage.localization.sensor_model import SparseScan
@@ -57,7 +58,7 @@ NAMED, ARRAY, FREE = "type", "array", "items"
 TYPES: Mapping[str, type] = {
     kind.__name__: kind
     for kind in (
-        Affine2, Belief, BlockedWay, Corners, EndCause, Estimate, FileAxes, Homography,
+        Affine2, Belief, BlockedWay, Corners, ElsewhereState, EndCause, Estimate, FileAxes, Homography,
         Keyframe, LocalMap, LocalizerState, Odometry, OdometryNoise, PartialShape, Particles, Polyline, Pose2,
         PoseHypothesis, Posterior, Sighting, SparseScan, Status, Track, Tracks,
     )

@@ -5,6 +5,7 @@ from pilotage.localization.estimate import Estimate, PoseHypothesis, Status
 from pilotage.localization.explanation import Explanation, Verdict, WallEvidence
 from pilotage.localization.localizer import Localizer, LocalizerSettings
 from pilotage.localization.observation import Observation, observe
+from pilotage.localization.other_buildings import OtherBuildings
 from pilotage.localization.prior import Prior
 from pilotage.localization.sensor_model import SensorModel, SensorSettings
 from pilotage.localization.tracks import Track, Tracks, TrackSettings
@@ -16,6 +17,7 @@ __all__ = [
     "Localizer",
     "LocalizerSettings",
     "Observation",
+    "OtherBuildings",
     "PoseHypothesis",
     "Prior",
     "SensorModel",

@@ -14,11 +14,17 @@ class Belief:
     """Where the robot may be, and what was seen on the way there."""
 
     posterior: Posterior
+    log_elsewhere: float = 0.0  # log-evidence of other buildings, since the first scan [nats]
     window: tuple[Keyframe, ...] = ()
     fits: tuple[float, ...] = ()  # at the last keyframes
     at_keyframe: Estimate | None = None  # the estimate at the newest keyframe; None before the first scan
     motion: Pose2 = field(default_factory=Pose2.identity)  # since then [m, rad]
     estimate: Estimate | None = None  # the same, carried along by this motion
+
+    @property
+    def log_evidence(self) -> float:
+        """The log-evidence of the drawing over that of other buildings, since the first scan [nats]."""
+        return self.posterior.log_evidence_of_places - self.log_elsewhere
 
     def moved(self, motion: Pose2, stamp: float, atlas: Atlas) -> "Belief":
         """Carry the estimate along by a motion since the last keyframe, of which there is one."""

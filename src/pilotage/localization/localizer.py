@@ -18,6 +18,7 @@ from pilotage.localization.keyframes import (
     choose_keyframes,
 )
 from pilotage.localization.observation import Observation, observe
+from pilotage.localization.other_buildings import OtherBuildings
 from pilotage.localization.particle_filter import ParticleFilter
 from pilotage.localization.prior import Prior, check_scale
 from pilotage.localization.sensor_model import SensorModel, SensorSettings, SparseScan
@@ -99,6 +100,7 @@ class Localizer:
             self._model, self._prior, self.settings.tracks, self.settings.proposals, BIRTH_COUNT
         )
         self.scan_matcher = ScanMatcher(self.settings.scan_matching)
+        self.other_buildings = OtherBuildings(self.settings.sensor)
         self._belief = Belief(self._filter.first(start, self._rng))
 
     @classmethod
@@ -123,6 +125,7 @@ class Localizer:
         localizer = cls(drawing, settings, start=(0.0, 0.0), scale=scale)  # few particles, and replaced
         localizer._belief = state.belief
         vars(localizer.scan_matcher).update(state.scan_matcher)
+        localizer.other_buildings.go_on(state.elsewhere)
         localizer._rng.bit_generator.state = dict(state.generator)
         if stood:
             localizer.scan_matcher.stood_still()
@@ -136,6 +139,7 @@ class Localizer:
             fingerprint(self.atlas.sketch),
             self._belief,
             matcher,
+            self.other_buildings.state,
             self._rng.bit_generator.state,
             self._scale,
         )
@@ -154,8 +158,8 @@ class Localizer:
 
     @property
     def log_evidence(self) -> float:
-        """The log-evidence of this drawing over that of any building, since the first scan [nats]."""
-        return self._belief.posterior.log_evidence
+        """The log-evidence of this drawing over that of other buildings, since the first scan [nats]."""
+        return self._belief.log_evidence
 
     def sample(self, count: int) -> Array:
         """Pick states of equally probable particles, for planning over all tracks, (6, count)."""
@@ -179,7 +183,8 @@ class Localizer:
         seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3: the robot's side, knows no drawing
         motion = self._belief.motion @ seen.last_from_base
         if self._belief.at_keyframe is None or self.settings.is_keyframe_due(motion):
-            return self.add_keyframe(observe(scan, seen.shapes, motion))
+            keyframe = observe(scan, seen.shapes, motion)
+            return self.add_keyframe(self.other_buildings.compared(keyframe))
         self._belief = self._belief.moved(motion, scan.stamp, self.atlas)
         return self.estimate
 
@@ -194,7 +199,7 @@ class Localizer:
         posterior = self._filter.updated(belief.posterior, window, seen.motion, self._rng, effort=effort)
         fits = (*belief.fits, *self._fits(posterior.tracks, seen.scan))[-FIT_MEMORY:]
         fit = sum(fits) / len(fits) if posterior.tracks.tracks else 0.0
-        belief = Belief(posterior, window, fits)
+        belief = Belief(posterior, belief.log_elsewhere + seen.log_elsewhere, window, fits)
         self._belief = self._summed_up(belief, fit, seen.stamp)
         return self.estimate
 
@@ -218,7 +223,7 @@ class Localizer:
 
     def _summed_up(self, belief: Belief, fit: float, stamp: float) -> Belief:
         """Estimate the place at the newest keyframe."""
-        estimate = summarize(belief.posterior.tracks, fit, stamp, belief.window[-1].travel, self.atlas)
+        estimate = summarize(belief.posterior.tracks, fit, stamp, belief.log_evidence, self.atlas)
         return replace(belief, at_keyframe=estimate, estimate=estimate)
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:

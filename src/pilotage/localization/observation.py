@@ -21,6 +21,7 @@ class Observation:
     motion: Pose2  # since the last keyframe
     stamp: float  # [s]
     view: float  # [rad] that the scan covers, at most a full turn
+    log_elsewhere: float = 0.0  # [nats] log-likelihood ratio of being in another building than the drawn one
 
 
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:

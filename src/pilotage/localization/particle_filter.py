@@ -18,6 +18,7 @@ from pilotage.localization.tracks import (
     Track,
     Tracks,
     TrackSettings,
+    as_one,
     cluster,
     leave,
     normalized,
@@ -38,6 +39,11 @@ class Posterior:
     log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of keyframes of the window
     searched: float = 0.0  # [m] of travel at the last search
 
+    @property
+    def log_evidence_of_places(self) -> float:
+        """The log-evidence of all places of this drawing together, without the null track [nats]."""
+        return self.log_evidence + self.tracks.particles.log_mass
+
     def with_evidence(self, window: tuple[Keyframe, ...], log_total: float) -> "Posterior":
         """Add the log-evidence of what is new in a window."""
         totals = (*self.log_totals, (window[-1].travel, log_total))
@@ -54,6 +60,7 @@ class ParticleFilter:
     settings: TrackSettings
     proposals: int  # places that a whole search tries
     births: int  # particles that a search gives birth to
+    clustered: bool = True  # whether places compete as tracks; else only the evidence of all is asked for
 
     def first(self, start: Sequence[float] | None, rng: np.random.Generator) -> Posterior:
         """Draw particles before the first scan: anywhere, or where the robot is said to `start`.
@@ -103,7 +110,7 @@ class ParticleFilter:
             factor = log_birth_factor(after, keyframe.travel, self.settings)
             particles = join([particles, found.scaled(factor)])
             after = replace(after, searched=keyframe.travel)
-        return replace(after, tracks=cluster(particles, log_null, self.model.atlas, self.settings, rng))
+        return replace(after, tracks=self.gathered(particles, log_null, rng))
 
     def with_blocked_way(
         self, before: Posterior, window: tuple[Keyframe, ...], rng: np.random.Generator
@@ -113,9 +120,14 @@ class ParticleFilter:
         log_ratio = log_ratio_of_ways(particles.states, window[-1].blocked[-1:], self.model.atlas)
         particles, log_null, log_total = normalized(particles.scaled(log_ratio), before.tracks.log_null)
         return replace(
-            before.with_evidence(window, log_total),
-            tracks=cluster(particles, log_null, self.model.atlas, self.settings, rng),
+            before.with_evidence(window, log_total), tracks=self.gathered(particles, log_null, rng)
         )
+
+    def gathered(self, particles: Particles, log_null: float, rng: np.random.Generator) -> Tracks:
+        """Split particles into tracks, and give each as many as it needs; all masses sum to 1 after it."""
+        if self.clustered:
+            return cluster(particles, log_null, self.model.atlas, self.settings, rng)
+        return as_one(particles, log_null, self.settings.max_count, rng)
 
 
 def log_birth_factor(posterior: Posterior, travel: float, settings: TrackSettings) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from pilotage.errors import PilotageError
 from pilotage.localization.belief import Belief
+from pilotage.localization.other_buildings import ElsewhereState
 from pilotage.maps import SchematicMap
 
 
@@ -22,6 +23,7 @@ class LocalizerState:
     drawing: str  # fingerprint of the drawing
     belief: Belief
     scan_matcher: Mapping[str, object]  # its attributes that change from scan to scan
+    elsewhere: ElsewhereState
     generator: Mapping[str, object]  # of the localizer's random numbers
     scale: float | None = None  # [drawing units per metre] that the user gave
 

@@ -143,6 +143,12 @@ def cluster(
     )
 
 
+def as_one(particles: Particles, log_null: float, count: int, rng: np.random.Generator) -> Tracks:
+    """Make one track of `count` particles, wherever they stand; all masses sum to 1 after it."""
+    particles, log_null, _ = normalized(particles, log_null)
+    return Tracks((Track(_resample(particles, count, rng)),), log_null)
+
+
 def _block_keys(particles: Particles, atlas: Atlas) -> NDArray[np.int64]:
     """Return the number of the block of position and heading of each particle, (n,)."""
     size = BLOCK * math.exp(_mean_log_scale(particles))

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from pilotage.geometry import Pose2
-from pilotage.localization import Localizer, LocalizerSettings, Observation, observe
+from pilotage.localization import Localizer, LocalizerSettings, Observation, OtherBuildings, observe
 from pilotage.maps import Atlas
 from pilotage.perception import Reading
 from pilotage.scan_matching import ScanMatcher
@@ -15,7 +15,7 @@ from pilotage.scan_matching import ScanMatcher
 class Evidence:
     """What one drawing tells about one log."""
 
-    log_evidence: float  # of the drawing over that of any building [nats]
+    log_evidence: float  # of the drawing over that of other buildings [nats]
     place: str  # where the robot would be at the end
     probability: float  # of that place
 
@@ -27,7 +27,7 @@ def observations_of(
 
     Raises ValueError if there is no scan.
     """
-    matcher = ScanMatcher(settings.scan_matching)
+    matcher, other_buildings = ScanMatcher(settings.scan_matching), OtherBuildings(settings.sensor)
     observations: list[Observation] = []
     motion, gone = Pose2.identity(), 0.0
     for reading in readings:
@@ -35,7 +35,7 @@ def observations_of(
         gone += math.hypot(seen.last_from_base.x, seen.last_from_base.y)
         motion = motion @ seen.last_from_base
         if not observations or settings.is_keyframe_due(motion):
-            observations.append(observe(reading.scan, seen.shapes, motion))
+            observations.append(other_buildings.compared(observe(reading.scan, seen.shapes, motion)))
             motion = Pose2.identity()
         if gone >= travel:
             break
