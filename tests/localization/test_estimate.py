@@ -11,7 +11,7 @@ from buildings import coarse, flat
 from knowing import estimate_at, estimate_of, hypothesis_at
 from pilotage.geometry import Affine2, Pose2
 from pilotage.localization import Status, Track, Tracks
-from pilotage.localization.estimate import MISMATCH, summarize
+from pilotage.localization.estimate import MISMATCH, NO_MISMATCH, summarize
 from pilotage.localization.particles import Particles
 from pilotage.maps import build_atlas
 from strategies import poses
@@ -69,6 +69,13 @@ def test_a_drawing_is_to_blame_if_other_buildings_explain_the_way_far_better():
 
     assert Status.LOST is summarize(tracks, 0.1, 0.0, MISMATCH, ATLAS).status
     assert Status.MISMATCH is summarize(tracks, 0.1, 0.0, MISMATCH - 0.1, ATLAS).status
+
+
+def test_a_mismatch_lasts_until_the_drawing_explains_the_way_as_well_as_others_do():
+    tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
+
+    for log_evidence, status in ((NO_MISMATCH - 0.1, Status.MISMATCH), (NO_MISMATCH, Status.LOST)):
+        assert status is summarize(tracks, 0.1, 0.0, log_evidence, ATLAS, before=Status.MISMATCH).status
 
 
 def test_places_too_improbable_to_count_are_still_told():

@@ -47,7 +47,7 @@ class Trip:
         if final is None:
             return f"{count}."
         misfit = (
-            f"this drawing does not seem to be of this building (fit {final.fit:.2f});"
+            f"this drawing does not seem to be of this building (evidence {final.log_evidence:.0f});"
             " `pilotage which` with --mirrored tells whether it is mirrored"
         )
         if not self.located:

@@ -8,7 +8,7 @@ import numpy as np
 from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.belief import Belief
 from pilotage.localization.blocked_way import BlockedWay
-from pilotage.localization.estimate import Estimate, summarize
+from pilotage.localization.estimate import Estimate, Status, summarize
 from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import SCANS
 from pilotage.localization.keyframes import (
@@ -199,7 +199,14 @@ class Localizer:
         posterior = self._filter.updated(belief.posterior, window, seen.motion, self._rng, effort=effort)
         fits = (*belief.fits, *self._fits(posterior.tracks, seen.scan))[-FIT_MEMORY:]
         fit = sum(fits) / len(fits) if posterior.tracks.tracks else 0.0
-        belief = Belief(posterior, belief.log_elsewhere + seen.log_elsewhere, window, fits)
+        belief = replace(
+            belief,
+            posterior=posterior,
+            log_elsewhere=belief.log_elsewhere + seen.log_elsewhere,
+            window=window,
+            fits=fits,
+            motion=Pose2.identity(),
+        )
         self._belief = self._summed_up(belief, fit, seen.stamp)
         return self.estimate
 
@@ -223,7 +230,9 @@ class Localizer:
 
     def _summed_up(self, belief: Belief, fit: float, stamp: float) -> Belief:
         """Estimate the place at the newest keyframe."""
-        estimate = summarize(belief.posterior.tracks, fit, stamp, belief.log_evidence, self.atlas)
+        before = Status.LOST if belief.at_keyframe is None else belief.at_keyframe.status
+        tracks, log_evidence = belief.posterior.tracks, belief.log_evidence
+        estimate = summarize(tracks, fit, stamp, log_evidence, self.atlas, before=before)
         return replace(belief, at_keyframe=estimate, estimate=estimate)
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:

@@ -50,7 +50,7 @@ class TrackSettings:
     max_count: int = 30_000  # particles of all tracks, at most
     min_count: int = 4_000  # particles of a leading track
     count_per_area: int = 1_000  # particles for each square metre over which a track is spread
-    first_null: float = 0.2  # probability, before the first scan, that the drawing is of another building
+    first_null: float = 0.2  # probability, before the first scan, that the robot is nowhere on the drawing
     leaving: float = 0.0005  # probability per metre that the robot leaves what is drawn
     moving: float = 0.0005  # probability per metre that the robot was carried to another place
     told_log_odds: float = 12.0  # [nats] by which both are less likely if the user tells the start
