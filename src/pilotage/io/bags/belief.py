@@ -88,6 +88,7 @@ class Belief:
             "cell": estimate.cell_id,
             "probability": f"{estimate.probability:.3f}",
             "fit": f"{estimate.fit:.3f}",
+            "evidence": f"{estimate.log_evidence:.1f}",
             "scale": f"{estimate.scale:.6g}",
             "stretch": f"{stretch_of(estimate):.4f}",
         }
@@ -102,7 +103,18 @@ class Belief:
             Place(frame.from_file(one["x"], one["y"], one["heading"]), float(one["probability"]))
             for one in record["hypotheses"]
         )
-        names = ("status", "place", "cell", "probability", "fit", "scale", "behavior", "outcome", "reason")
+        names = (
+            "status",
+            "place",
+            "cell",
+            "probability",
+            "fit",
+            "evidence",
+            "scale",
+            "behavior",
+            "outcome",
+            "reason",
+        )
         values = {name: str(record[name]) for name in names if record.get(name) is not None}
         std = record.get("position_std")
         std = UNKNOWN_STD if std is None else float(std)
