@@ -11,7 +11,7 @@ from buildings import coarse, flat
 from knowing import estimate_at, estimate_of, hypothesis_at
 from pilotage.geometry import Affine2, Pose2
 from pilotage.localization import Status, Track, Tracks
-from pilotage.localization.estimate import MISMATCH, NO_MISMATCH, summarize
+from pilotage.localization.estimate import summarize
 from pilotage.localization.particles import Particles
 from pilotage.maps import build_atlas
 from strategies import poses
@@ -50,7 +50,7 @@ def tracks_at(pose, log_null):
 
 def test_one_track_is_one_hypothesis_where_it_stands():
     here = Pose2(1.5, 5.0, 0.5)
-    estimate = summarize(tracks_at(here, math.log(0.001)), 0.7, 3.0, 20.0, ATLAS)
+    estimate = summarize(tracks_at(here, math.log(0.001)), 0.7, 3.0, 20.0, ATLAS, is_mismatch=False)
 
     assert Status.LOCATED is estimate.status
     assert 1 == len(estimate.hypotheses)
@@ -64,24 +64,18 @@ def test_one_track_is_one_hypothesis_where_it_stands():
     )
 
 
-def test_a_drawing_is_to_blame_if_other_buildings_explain_the_way_far_better():
-    tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
+def test_a_drawing_is_to_blame_if_that_is_claimed_whatever_its_places():
+    tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.001))
+    estimate = summarize(tracks, 0.1, 0.0, -9.0, ATLAS, is_mismatch=True)
 
-    assert Status.LOST is summarize(tracks, 0.1, 0.0, MISMATCH, ATLAS).status
-    assert Status.MISMATCH is summarize(tracks, 0.1, 0.0, MISMATCH - 0.1, ATLAS).status
-
-
-def test_a_mismatch_lasts_until_the_drawing_explains_the_way_as_well_as_others_do():
-    tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
-
-    for log_evidence, status in ((NO_MISMATCH - 0.1, Status.MISMATCH), (NO_MISMATCH, Status.LOST)):
-        assert status is summarize(tracks, 0.1, 0.0, log_evidence, ATLAS, before=Status.MISMATCH).status
+    assert Status.MISMATCH is estimate.status
+    assert -9.0 == estimate.log_evidence
 
 
 def test_places_too_improbable_to_count_are_still_told():
     tracks = tracks_at(Pose2(1.5, 5.0, 0.5), math.log(0.99))
     faint = Tracks((Track(tracks.particles.scaled(-2000.0)),), 0.0)
-    estimate = summarize(faint, 0.0, 0.0, -2000.0, ATLAS)
+    estimate = summarize(faint, 0.0, 0.0, -2000.0, ATLAS, is_mismatch=True)
 
     assert Status.MISMATCH is estimate.status
     assert 0.0 == estimate.probability
@@ -98,7 +92,9 @@ def test_particles_apart_at_a_tiny_scale_still_make_a_hypothesis():
     states[1] = 5.0
     states[3, :2] = -4.0
     weights = np.log([0.3, 0.3, *[0.4 / 40] * 40]) + math.log(0.9)
-    estimate = summarize(Tracks((Track(Particles(states, weights)),), math.log(0.1)), 0.5, 0.0, 1.0, ATLAS)
+    estimate = summarize(
+        Tracks((Track(Particles(states, weights)),), math.log(0.1)), 0.5, 0.0, 1.0, ATLAS, is_mismatch=False
+    )
 
     assert all(math.isfinite(one.sketch_from_base.pose.x) for one in estimate.hypotheses)
     assert 0.0 < estimate.probability < 1.0
@@ -110,7 +106,7 @@ def test_a_drawing_of_kilometres_takes_no_more_memory():
     )
     tracks = Tracks((Track(Particles(states, np.full(10, math.log(0.05)))),), math.log(0.5))
     tracemalloc.start()
-    estimate = summarize(tracks, 0.5, 0.0, 1.0, ATLAS)
+    estimate = summarize(tracks, 0.5, 0.0, 1.0, ATLAS, is_mismatch=False)
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
 

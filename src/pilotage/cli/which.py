@@ -39,7 +39,7 @@ def which(
 
     Each log is localized on each drawing. A line a drawing, the best first: the log, the rank, the logarithm
     of the drawing's evidence over that of other buildings, the probability of the place where the robot would
-    be at the end, that place, and the drawing. Below -5 it is probably of another building.
+    be at the end, that place, and the drawing. Below -8 it is probably of another building.
 
     All drawings are tried with few particles, the best eighth (at least four) then with all. The numbers
     of the others are marked `~`. The ranking does not depend on the number of workers. Files that cannot

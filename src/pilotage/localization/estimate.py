@@ -26,11 +26,6 @@ MIN_PROBABILITY = 0.02
 MORE_PROBABLE_THAN_NOT = 0.5
 """Probability from which on the robot claims a place."""
 
-MISMATCH, NO_MISMATCH = -5.0, 0.0
-"""[nats] Log-evidence of a drawing over that of other buildings below which it is claimed to be of another,
-and from which on no longer. Those are drawn without a mistake, so a right drawing, with all that is wrong
-with it, may come off worse by a little: 2 of 180 runs of 40 m on right drawings end in a mismatch."""
-
 CALIBRATION = (-0.26, 0.55)
 """A probability with log-odds x is told as one with log-odds a + b x. The filter counts the errors of a
 drawing, which persist for metres, as independent from keyframe to keyframe, so its log-odds are too large.
@@ -143,11 +138,12 @@ def summarize(
     log_evidence: float,
     atlas: Atlas,
     *,
-    before: Status = Status.LOST,
+    is_mismatch: bool,
 ) -> Estimate:
     """Cluster the particles into pose hypotheses, and say how probable the first one is.
 
-    `log_evidence` is that of the drawing over that of other buildings [nats], `before` the status so far.
+    `log_evidence` is that of the drawing over that of other buildings [nats], and `is_mismatch` what follows
+    from it.
     """
     particles = tracks.particles
     hypotheses = calibrated(find_hypotheses(particles, atlas))
@@ -155,7 +151,7 @@ def summarize(
     inside = atlas.are_in((first.cell_id,), particles.states[:2].T) if first.cell_id else np.zeros(0, bool)
     in_cell = math.exp(particles.log_mass) * float(particles.shares[inside].sum()) if inside.any() else 0.0
     status = Status.LOCATED if first.probability >= MORE_PROBABLE_THAN_NOT else Status.LOST
-    if log_evidence < (NO_MISMATCH if before is Status.MISMATCH else MISMATCH):
+    if is_mismatch:
         status = Status.MISMATCH
     return Estimate(
         stamp=stamp,

@@ -8,7 +8,7 @@ import numpy as np
 from pilotage.geometry import Array, Pose2, segments_of
 from pilotage.localization.belief import Belief
 from pilotage.localization.blocked_way import BlockedWay
-from pilotage.localization.estimate import Estimate, Status, summarize
+from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import SCANS
 from pilotage.localization.keyframes import (
@@ -230,9 +230,8 @@ class Localizer:
 
     def _summed_up(self, belief: Belief, fit: float, stamp: float) -> Belief:
         """Estimate the place at the newest keyframe."""
-        before = Status.LOST if belief.at_keyframe is None else belief.at_keyframe.status
-        tracks, log_evidence = belief.posterior.tracks, belief.log_evidence
-        estimate = summarize(tracks, fit, stamp, log_evidence, self.atlas, before=before)
+        tracks, is_mismatch = belief.posterior.tracks, belief.is_mismatch
+        estimate = summarize(tracks, fit, stamp, belief.log_evidence, self.atlas, is_mismatch=is_mismatch)
         return replace(belief, at_keyframe=estimate, estimate=estimate)
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:
