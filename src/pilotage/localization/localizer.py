@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -100,7 +101,6 @@ class Localizer:
             self._model, self._prior, self.settings.tracks, self.settings.proposals, BIRTH_COUNT
         )
         self.scan_matcher = ScanMatcher(self.settings.scan_matching)
-        self.other_buildings = OtherBuildings(self.settings.sensor)
         self._belief = Belief(self._filter.first(start, self._rng))
 
     @classmethod
@@ -143,6 +143,11 @@ class Localizer:
             self._rng.bit_generator.state,
             self._scale,
         )
+
+    @cached_property
+    def other_buildings(self) -> OtherBuildings:
+        """What drawings of other buildings make of the way; not needed if observations tell it already."""
+        return OtherBuildings(self.settings.sensor)
 
     @property
     def estimate(self) -> Estimate:

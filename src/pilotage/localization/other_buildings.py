@@ -3,8 +3,8 @@
 In some buildings nearly any drawing explains the scans, because corridors are alike; in others not even the
 right one does so well. So evidence for a drawing means something only beside that for drawings of buildings
 where the robot is not. Such a sheet is packed here: floor plans of two buildings that do not exist. A small
-particle filter follows the robot on it as if it were there; it knows nothing of the user's drawing. What it
-makes of a keyframe is the likelihood of the null track.
+particle filter follows the robot on it as if it were there; it knows nothing of the user's drawing. Its
+log-evidence is subtracted from that of the drawing.
 """
 
 from collections.abc import Mapping
@@ -29,8 +29,8 @@ SHEET = "other_buildings.csv"
 """Walls as x1, y1, x2, y2 [m]."""
 CELLS = 200
 """Cells along the longer side of the sheet: half a metre."""
-COUNTS = TrackSettings(first_count=15_000, max_count=3_000, min_count=500, count_per_area=125)
-"""An eighth of the particles that look for the robot on the user's drawing."""
+COUNTS = TrackSettings(first_count=15_000, max_count=3_000, min_count=3_000)
+"""Particles before the first scan and after it: a tenth of those on the user's drawing."""
 EVERY = 1.0
 """[m] of travel between two searches of the sheet."""
 PROPOSALS, BIRTHS = 1_500, 250
