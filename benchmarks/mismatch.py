@@ -116,7 +116,8 @@ def render(figures: Figures) -> str:
         [
             prose(
                 "The log of each building is localized on the drawings of the others; `mismatch` should be"
-                " the status after 40 m. On the right drawing it should not."
+                " the status after 40 m. On the right drawing it should not. The limit was chosen with all"
+                " six buildings in view."
             ),
             "",
             table(
