@@ -224,6 +224,17 @@ def test_a_robot_that_is_too_near_to_a_wall_drives_off_it_and_comes_no_nearer(he
     assert too_near - 1e-6 < room_between(moments, wall) + BODY.radius
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("heading", [0.0, -0.5, 1.0])
+def test_a_robot_gets_away_from_a_post_that_its_path_passes_too_near(side, heading):
+    post = np.array([[0.05, side * (BODY.radius + 0.01)]])
+
+    moments = list(obey(along((0, 0), (2, 0)), post, Pose2(0.0, 0.0, heading), seconds=15.0))
+
+    assert 0.2 > np.hypot(*(moments[-1][0].position - (2.0, 0.0)))
+    assert np.hypot(*post[0]) - 1e-3 < room_between(moments, post) + BODY.radius
+
+
 @pytest.mark.parametrize("left", [0.0, 0.05, 0.3])
 def test_the_robot_can_stop_at_the_end_of_its_path(left):
     path = np.array([[0.0, 0.0]]) if left == 0.0 else along((0, 0), (left, 0))

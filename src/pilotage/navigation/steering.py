@@ -24,6 +24,12 @@ PIVOT = math.radians(45.0)
 GAIN = 2.5
 """Turn rate for each radian of bearing [1/s]."""
 
+ASIDE = np.radians([side * turn for turn in range(0, 181, 10) for side in (1, -1)])
+"""Turns that are tried to get away from the nearest obstacle, the least first, to its far side first."""
+
+AWAY = 0.1
+"""Distance [m] that the robot must be able to go in that direction."""
+
 STILL = Twist(0.0, 0.0)
 
 
@@ -80,7 +86,11 @@ def turn_on_the_spot(angular: float, settings: SteeringSettings, moving: Twist) 
 
 
 def lookahead_point(path: Array, obstacles: Array, room: float, distance: float) -> Array:
-    """Find the farthest point of a path, up to a distance, with this room [m] on the line to it, (2,)."""
+    """Find the farthest point of a path, up to a distance, with this room [m] on the line to it, (2,).
+
+    If no line along the path has the room, as beside an obstacle that came too near, the point lies where the
+    robot gets away from there.
+    """
     near = obstacles[np.hypot(obstacles[:, 0], obstacles[:, 1]) < distance + room]
     away = np.hypot(path[:, 0], path[:, 1])
     for share in SHARES:
@@ -90,7 +100,25 @@ def lookahead_point(path: Array, obstacles: Array, room: float, distance: float)
         gaps = np.hypot(*(near - along[:, np.newaxis] * point).T)
         now = np.hypot(near[:, 0], near[:, 1])
         if (gaps >= np.minimum(room, now - 1e-3)).all():
-            break
+            return np.asarray(point)
+    return free_point(point, near, room)
+
+
+def free_point(point: Array, obstacles: Array, room: float) -> Array:
+    """Turn a point (2,) aside until the way there leads no nearer to obstacles (n, 2) that are too near.
+
+    The least turn is taken. If there is none, the point stays where it is.
+    """
+    away = np.hypot(obstacles[:, 0], obstacles[:, 1])
+    nearest, needed = obstacles[away.argmin()], np.minimum(room, away)
+    wanted = math.atan2(point[1], point[0])
+    side = -1.0 if point[0] * nearest[1] > point[1] * nearest[0] else 1.0
+    for aside in side * ASIDE:
+        step = AWAY * np.array([math.cos(wanted + aside), math.sin(wanted + aside)])
+        along = np.clip(obstacles @ step / AWAY**2, 0.0, 1.0)
+        gaps = np.hypot(*(obstacles - along[:, np.newaxis] * step).T)
+        if (gaps >= needed).all():
+            return np.asarray(step)
     return np.asarray(point)
 
 
