@@ -92,22 +92,27 @@ def lookahead_point(path: Array, obstacles: Array, room: float, distance: float)
     robot gets away from there.
     """
     near = obstacles[np.hypot(obstacles[:, 0], obstacles[:, 1]) < distance + room]
+    needed = np.minimum(room, np.hypot(near[:, 0], near[:, 1]) - 1e-3)
     away = np.hypot(path[:, 0], path[:, 1])
     for share in SHARES:
         far = np.flatnonzero(away >= share * distance)
         point = path[far[0]] if len(far) else path[-1]
-        along = np.clip(near @ point / max(float(point @ point), 1e-9), 0.0, 1.0)
-        gaps = np.hypot(*(near - along[:, np.newaxis] * point).T)
-        now = np.hypot(near[:, 0], near[:, 1])
-        if (gaps >= np.minimum(room, now - 1e-3)).all():
+        if (gaps_beside(point, near) >= needed).all():
             return np.asarray(point)
     return free_point(point, near, room)
+
+
+def gaps_beside(point: Array, obstacles: Array) -> Array:
+    """Measure from the line that leads from the robot to a point (2,) to obstacles (n, 2), (n,) [m]."""
+    along = np.clip(obstacles @ point / max(float(point @ point), 1e-9), 0.0, 1.0)
+    return np.asarray(np.hypot(*(obstacles - along[:, np.newaxis] * point).T))
 
 
 def free_point(point: Array, obstacles: Array, room: float) -> Array:
     """Turn a point (2,) aside until the way there leads no nearer to obstacles (n, 2) that are too near.
 
-    The least turn is taken. If there is none, the point stays where it is.
+    All are in the robot's frame [m]; less than the `room` is too near. The least turn is taken. If there is
+    none, the point stays where it is.
     """
     away = np.hypot(obstacles[:, 0], obstacles[:, 1])
     nearest, needed = obstacles[away.argmin()], np.minimum(room, away)
@@ -115,9 +120,7 @@ def free_point(point: Array, obstacles: Array, room: float) -> Array:
     side = -1.0 if point[0] * nearest[1] > point[1] * nearest[0] else 1.0
     for aside in side * ASIDE:
         step = AWAY * np.array([math.cos(wanted + aside), math.sin(wanted + aside)])
-        along = np.clip(obstacles @ step / AWAY**2, 0.0, 1.0)
-        gaps = np.hypot(*(obstacles - along[:, np.newaxis] * step).T)
-        if (gaps >= needed).all():
+        if (gaps_beside(step, obstacles) >= needed).all():
             return np.asarray(step)
     return np.asarray(point)
 
