@@ -19,7 +19,8 @@ def any_start_dissimilarity(c: Steps, d: Steps) -> float:
     """
     n, m = len(c.directions) // 2, len(d.directions) // 2
     at_c, at_d = c.stops[1 : n + 1] / c.stops[n], d.stops[1 : m + 1] / d.stops[m]  # in (0, 1]
-    step_c, step_d = np.diff(c.directions[: n + 1]), np.diff(d.directions[: m + 1])
+    step_c = c.directions[1 : n + 1] - c.directions[:n]
+    step_d = d.directions[1 : m + 1] - d.directions[:m]
     turn = c.directions[n] - c.directions[0]
 
     mean, variance = mean_and_variance(c, 0, n, d, 0, m)

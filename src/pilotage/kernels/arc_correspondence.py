@@ -52,7 +52,7 @@ def group_costs(
     k, m = len(c.bends), len(d.bends)
     costs = np.full((len(sizes), k, m), np.inf)
     for g in range(len(sizes)):
-        c_size, d_size = sizes[g]
+        c_size, d_size = sizes[g, 0], sizes[g, 1]
         if c_size > k or d_size > m:
             continue
         for i in range(min(k, len(c.arc_starts) - c_size)):

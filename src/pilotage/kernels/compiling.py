@@ -1,4 +1,8 @@
-"""numba's `njit`, which also compiles where there is no place for a cache."""
+"""numba's `njit`, which also compiles where there is no place for a cache.
+
+To unpack a row of an array, to copy a slice onto a slice or to call `np.diff` takes a second or two to
+compile: what raises on a wrong shape formats numbers. Kernels name the numbers one by one.
+"""
 
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar, cast

@@ -62,15 +62,27 @@ def is_in_triangle(xy: NDArray[np.float64], p: int, a: int, b: int, c: int) -> b
 
 def sort_into_grid(xy: NDArray[np.float64]) -> Grid:
     """Sort vertices (n, 2) into a square grid of n cells over their bounds."""
-    side = max(1, int(math.sqrt(len(xy))))
-    left, bottom = xy[:, 0].min(), xy[:, 1].min()
-    extent = max(xy[:, 0].max() - left, xy[:, 1].max() - bottom)
+    n = len(xy)
+    side = max(1, int(math.sqrt(n)))
+    left, bottom, right, top = xy[0, 0], xy[0, 1], xy[0, 0], xy[0, 1]
+    for p in range(1, n):
+        left, right = min(left, xy[p, 0]), max(right, xy[p, 0])
+        bottom, top = min(bottom, xy[p, 1]), max(top, xy[p, 1])
+    extent = max(right - left, top - bottom)
     cells_a_unit = side / extent if extent > 0.0 else 0.0
-    column = np.minimum((xy[:, 0] - left) * cells_a_unit, side - 1).astype(np.int64)
-    row = np.minimum((xy[:, 1] - bottom) * cells_a_unit, side - 1).astype(np.int64)
-    cell = row * side + column
-    by_cell = np.argsort(cell)
-    return Grid(side, column, row, by_cell, np.searchsorted(cell[by_cell], np.arange(side * side + 1)))
+    column, row, by_cell = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
+    starts = np.zeros(side * side + 1, np.int64)
+    for p in range(n):
+        column[p] = min(int((xy[p, 0] - left) * cells_a_unit), side - 1)
+        row[p] = min(int((xy[p, 1] - bottom) * cells_a_unit), side - 1)
+        starts[row[p] * side + column[p]] += 1
+    for k in range(side * side):
+        starts[k + 1] += starts[k]  # where each cell ends
+    for p in range(n - 1, -1, -1):
+        k = row[p] * side + column[p]
+        starts[k] -= 1
+        by_cell[starts[k]] = p
+    return Grid(side, column, row, by_cell, starts)
 
 
 def find_in_triangle(
@@ -143,7 +155,7 @@ def evolve_runs(
     if n == 0:
         return keep
     previous, following, run_of = link_vertices(starts, closed)
-    left = np.diff(starts)  # vertices that each run has left
+    left = starts[1:] - starts[:-1]  # vertices that each run has left
     grid = sort_into_grid(xy)
     blocker = np.full(n, NONE)  # the vertex that this one waits for
     has_waiting = np.zeros(n, dtype=np.bool_)  # whether another waits for this one

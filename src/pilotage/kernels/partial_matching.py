@@ -94,8 +94,10 @@ def trace_back(
         if first_cut:
             break
         first_cut = is_cut[i, j]
-        i, j = before[i, j]
-    path[:size] = path[:size][::-1].copy()
+        i, j = before[i, j, 0], before[i, j, 1]
+    for k in range(size // 2):
+        for side in range(2):
+            path[k, side], path[size - 1 - k, side] = path[size - 1 - k, side], path[k, side]
     return size, first_cut
 
 

@@ -65,7 +65,7 @@ def linearize(
         k = field.nearest[row, column]
         if k == NONE:
             continue
-        ux, uy = field.directions[k]
+        ux, uy = field.directions[k, 0], field.directions[k, 1]
         vx, vy = c * directions[i, 0] - s * directions[i, 1], s * directions[i, 0] + c * directions[i, 1]
         if (vx != 0.0 or vy != 0.0) and ux * vx + uy * vy < min_cosine:
             continue

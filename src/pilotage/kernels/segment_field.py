@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.kernels.compiling import njit
+from pilotage.kernels.segment_grid import bounds
 
 NONE = -1  # no segment within reach
 
@@ -29,17 +30,14 @@ def build_segment_field(segments: NDArray[np.float64], cell: float, reach: float
     """Enter segments (m, 4) into a grid; cells farther than `reach` from all of them stay empty."""
     m = len(segments)
     directions, lengths = np.zeros((m, 2)), np.zeros(m)
-    left, bottom, right, top = 0.0, 0.0, 0.0, 0.0
+    left, bottom, right, top = bounds(segments)
     if m > 0:
-        left = min(segments[:, 0].min(), segments[:, 2].min()) - reach
-        bottom = min(segments[:, 1].min(), segments[:, 3].min()) - reach
-        right = max(segments[:, 0].max(), segments[:, 2].max()) + reach
-        top = max(segments[:, 1].max(), segments[:, 3].max()) + reach
+        left, bottom, right, top = left - reach, bottom - reach, right + reach, top + reach
     columns, rows = int((right - left) / cell) + 1, int((top - bottom) / cell) + 1
     nearest = np.full((rows, columns), NONE, dtype=np.int32)
     squared = np.full((rows, columns), np.inf, dtype=np.float32)
     for k in range(m):
-        ax, ay, bx, by = segments[k]
+        ax, ay, bx, by = segments[k, 0], segments[k, 1], segments[k, 2], segments[k, 3]
         length = math.hypot(bx - ax, by - ay)
         lengths[k] = length
         if length == 0.0:

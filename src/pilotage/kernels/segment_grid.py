@@ -26,6 +26,19 @@ class SegmentGrid(NamedTuple):
 
 
 @njit(cache=True)
+def bounds(segments: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Find left, bottom, right and top of segments (n, 4); all 0 if there are none."""
+    if len(segments) == 0:
+        return 0.0, 0.0, 0.0, 0.0
+    left, bottom, right, top = np.inf, np.inf, -np.inf, -np.inf
+    for j in range(len(segments)):
+        for end in (0, 2):
+            left, right = min(left, segments[j, end]), max(right, segments[j, end])
+            bottom, top = min(bottom, segments[j, end + 1]), max(top, segments[j, end + 1])
+    return left, bottom, right, top
+
+
+@njit(cache=True)
 def cell_size(count: int, width: float, height: float) -> float:
     """Choose cells of such a size that there are about as many as segments."""
     area = max(width, 1e-3 * height) * max(height, 1e-3 * width)
@@ -36,16 +49,7 @@ def cell_size(count: int, width: float, height: float) -> float:
 @njit(cache=True)
 def build_grid(segments: NDArray[np.float64]) -> SegmentGrid:
     """Lay a grid over segments (n, 4), rows x1, y1, x2, y2."""
-    left, bottom, right, top = 0.0, 0.0, 0.0, 0.0
-    if len(segments) > 0:
-        left, bottom = (
-            min(segments[:, 0].min(), segments[:, 2].min()),
-            min(segments[:, 1].min(), segments[:, 3].min()),
-        )
-        right, top = (
-            max(segments[:, 0].max(), segments[:, 2].max()),
-            max(segments[:, 1].max(), segments[:, 3].max()),
-        )
+    left, bottom, right, top = bounds(segments)
     cell = cell_size(len(segments), right - left, top - bottom)
     margin = MARGIN * cell
     left, bottom = left - 2.0 * margin, bottom - 2.0 * margin
