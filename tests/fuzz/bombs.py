@@ -1,13 +1,15 @@
 """Small files that would take very long or very much memory."""
 
 import gzip
-import io
 import struct
 import zlib
 from collections.abc import Callable
 
 ZEROS = 600_000_000
 """Bytes that a packed file unpacks to."""
+
+PART = 10_000_000
+"""Bytes of it that are packed once, however often they are repeated."""
 
 
 def use_bomb(width: int, depth: int) -> bytes:
@@ -34,13 +36,9 @@ def laughs() -> bytes:
 
 
 def packed_zeros(head: bytes) -> bytes:
-    """Pack zeros behind a head."""
-    stream = io.BytesIO()
-    with gzip.GzipFile(fileobj=stream, mode="wb", mtime=0, compresslevel=1) as file:
-        file.write(head)
-        for _ in range(ZEROS // 10_000_000):
-            file.write(bytes(10_000_000))
-    return stream.getvalue()
+    """Pack zeros behind a head, in parts that follow each other as gzip allows."""
+    first, other = (gzip.compress(start + bytes(PART), 1, mtime=0) for start in (head, b""))
+    return first + other * (ZEROS // PART - 1)
 
 
 def png_header(width: int, height: int) -> bytes:
