@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 from svgelements import Matrix, Viewbox
@@ -57,17 +58,16 @@ class Drawn:
     clips: tuple[ClipUse, ...] = ()  # what cuts it, and all that hold it
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):  # two of three steps of a walk replace a part of it: as a tuple that is quick
     """Where the walk stands: the chain of elements from the root, and what they hand down."""
 
     chain: tuple[Element, ...]
     viewport: Viewport
-    page_from_user: Matrix = field(default_factory=Matrix)
-    style: Style = field(default_factory=Style)
+    page_from_user: Matrix
+    style: Style
+    notes: Mapping[str, str]
     role: Role = Role.WALL
     thing: Thing = Thing.SOLID
-    notes: Mapping[str, str] = field(default_factory=dict)
     names: tuple[str, ...] = ()
     groups: tuple[int, ...] = ()
     outlined: tuple[int, str] | None = None
@@ -98,7 +98,7 @@ class Document:
         """Collect ids and styles; raises ValueError for a document that would take minutes."""
         check_size(root)
         self.page = read_page(root)
-        self.start = Place((root,), self.page or UNKNOWN_PAGE)
+        self.start = Place((root,), self.page or UNKNOWN_PAGE, Matrix(), Style(), {})
         self.sheet = StyleSheet.of(root)
         backwards = reversed(list(root.iter()))  # of two elements with one id the first counts
         self.by_id = {element.get("id"): element for element in backwards if element.get("id")}
@@ -117,7 +117,7 @@ class Document:
             return iter(())
         page_from_clip = Matrix(clip.get("transform", "")) * page_from_user
         chain = (*self.start.chain, clip)
-        places = [replace(self.start, chain=(*chain, child), page_from_user=page_from_clip) for child in clip]
+        places = [self.start._replace(chain=(*chain, child), page_from_user=page_from_clip) for child in clip]
         return walk(places, self, self.effort_for_clips)
 
 
@@ -136,8 +136,7 @@ def walk(places: Sequence[Place], document: Document, effort: Effort) -> Iterato
         declared = sheet.declared(place.chain)
         page_from_user = Matrix(declared.get("transform", "")) * place.page_from_user
         clip = REFERENCE.fullmatch(declared.get("clip-path", ""))
-        here = replace(
-            place,
+        here = place._replace(
             page_from_user=page_from_user,
             style=document.servers.plain(place.style.of_child(declared)),
             role=role_of(element, place.role),
@@ -168,7 +167,7 @@ def walk(places: Sequence[Place], document: Document, effort: Effort) -> Iterato
         else:
             inside = fitted(here, element) if tag == "svg" and len(here.chain) > 1 else here
             children = alternatives(element) if tag == "switch" else list(element)
-            waiting.extend(replace(inside, chain=(*inside.chain, child)) for child in reversed(children))
+            waiting.extend(inside._replace(chain=(*inside.chain, child)) for child in reversed(children))
 
 
 def check_size(root: Element) -> None:
@@ -216,21 +215,20 @@ def used(place: Place, by_id: Mapping[str | None, Element], sheet: StyleSheet) -
     if target is None or target in place.chain:
         return
     x, y = (place.viewport.length(use.get(name, "0"), axis) for axis, name in enumerate("xy"))
-    there = replace(place, page_from_user=Matrix.translate(x, y) * place.page_from_user)
+    there = place._replace(page_from_user=Matrix.translate(x, y) * place.page_from_user)
     if local_name(target.tag) != "symbol":
-        yield replace(there, chain=(*there.chain, target))
+        yield there._replace(chain=(*there.chain, target))
         return
     chain = (*there.chain, target)
     declared = {**sheet.declared(chain), "display": "inline"}  # a symbol that is used is shown
-    symbol = replace(
-        there,
+    symbol = there._replace(
         chain=chain,
         style=there.style.of_child(declared),
         role=role_of(target, there.role),
         names=there.names + tuple(names_of(target)),
     )
     inside = fitted(symbol, use, offset=False)
-    yield from (replace(inside, chain=(*inside.chain, child)) for child in reversed(target))
+    yield from (inside._replace(chain=(*inside.chain, child)) for child in reversed(target))
 
 
 def fitted(place: Place, frame: Element, *, offset: bool = True) -> Place:
@@ -244,8 +242,8 @@ def fitted(place: Place, frame: Element, *, offset: bool = True) -> Place:
     box = view_box(content)
     if box is None:
         shift = Matrix.translate(left, top) * place.page_from_user
-        return replace(place, page_from_user=shift, viewport=Viewport(0.0, 0.0, width, height))
+        return place._replace(page_from_user=shift, viewport=Viewport(0.0, 0.0, width, height))
     fit = Viewbox.viewbox_transform(
         left, top, width, height, box.x, box.y, box.width, box.height, content.get("preserveAspectRatio")
     )
-    return replace(place, page_from_user=Matrix(fit) * place.page_from_user, viewport=box)
+    return place._replace(page_from_user=Matrix(fit) * place.page_from_user, viewport=box)
