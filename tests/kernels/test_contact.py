@@ -85,9 +85,9 @@ def test_what_touches_can_leave_and_go_along_but_not_on(move, share):
 def test_doors_and_people_are_met_as_walls_are():
     nothing, doors, people = build_grid(NONE), np.array([[2.0, -1, 2, 1]]), np.array([[1.5, 0.0, 0.25]])
 
-    assert 0.9 == pytest.approx(share_before_all(0, 0, 2, 0, 0.2, nothing, doors, np.empty((0, 3))))
-    assert 0.525 == pytest.approx(share_before_all(0, 0, 2, 0, 0.2, nothing, doors, people))
-    assert 1.0 == share_before_all(0, 0, 2, 0, 0.2, nothing, NONE, np.empty((0, 3)))
+    assert 0.9 == pytest.approx(share_before_all(0.0, 0.0, 2.0, 0.0, 0.2, nothing, doors, np.empty((0, 3))))
+    assert 0.525 == pytest.approx(share_before_all(0.0, 0.0, 2.0, 0.0, 0.2, nothing, doors, people))
+    assert 1.0 == share_before_all(0.0, 0.0, 2.0, 0.0, 0.2, nothing, NONE, np.empty((0, 3)))
 
 
 @given(walls=st.lists(rows, max_size=20), places=st.lists(points, min_size=1), farthest=st.floats(0.1, 20.0))

@@ -153,7 +153,9 @@ def _match(seen: _Side, known: _Side, poses: Array, settings: Matching) -> tuple
     prices = kernels.partial_matching.Prices(
         settings.displacement_weight, settings.reward, settings.largest_run
     )
-    found = kernels.partial_matching.match_at_poses(seen.chain, known.chain, poses, prices)
+    found = kernels.partial_matching.match_at_poses(
+        seen.chain, known.chain, np.ascontiguousarray(poses), prices
+    )
     matches: list[PartialMatch] = []
     collected: set[bytes] = set()
     for h in np.argsort(found.costs, kind="stable"):

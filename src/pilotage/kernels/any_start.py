@@ -23,7 +23,8 @@ def any_start_dissimilarity(c: Steps, d: Steps) -> float:
     step_d = d.directions[1 : m + 1] - d.directions[:m]
     turn = c.directions[n] - c.directions[0]
 
-    mean, variance = mean_and_variance(c, 0, n, d, 0, m)
+    first = int(np.int64(0))  # a literal 0 has a type of its own
+    mean, variance = mean_and_variance(c, first, n, d, first, m)
     integral, slope = variance + mean * mean, 0.0
     meetings, bends, count = np.empty(n * m), np.empty(n * m), 0
     for i in range(n):

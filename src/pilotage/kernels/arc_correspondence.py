@@ -105,9 +105,10 @@ def open_dissimilarity(c: ArcSteps, d: ArcSteps, largest_group: int, measure: in
     costs = group_costs(c, d, sizes, measure, largest_run)
     room = np.empty((len(c.bends) + 1, len(d.bends) + 1))
     n, m = len(c.steps.directions), len(d.steps.directions)
-    c_first, d_first = c.arc_starts[0], d.arc_starts[0]  # a literal 0 has a type of its own
+    c_first, d_first = c.arc_starts[0], d.arc_starts[0]
+    first = int(np.int64(0))  # a literal 0 has a type of its own
     whole = stretch_dissimilarity(c.steps, c_first, n, d.steps, d_first, m, measure, largest_run)
-    return min(whole, cheapest_sequence(costs, sizes, 0, 0, whole, room))
+    return min(whole, cheapest_sequence(costs, sizes, first, first, whole, room))
 
 
 @njit(cache=True)

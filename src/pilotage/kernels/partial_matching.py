@@ -118,7 +118,8 @@ def cheapest_match(
     best = np.zeros((n + 1, m + 1))  # cheapest match that ends at vertices i, j; 0 is the empty one
     before = np.full((n + 1, m + 1, 2), START)  # the pair of vertices before i, j
     is_cut = np.zeros((n + 1, m + 1), dtype=np.bool_)  # whether the match starts with a cut just before i, j
-    least, end_i, end_j, last_cut = 0.0, 0, 0, False
+    least, last_cut = 0.0, False
+    end_i = end_j = int(np.int64(0))  # a literal 0 has a type of its own
     for i in range(n + 1):
         for j in range(m + 1):
             so_far = best[i, j]
