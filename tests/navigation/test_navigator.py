@@ -151,6 +151,27 @@ def test_a_thing_that_stands_on_the_goal_is_gone_up_to():
     assert has_arrived(told, (7.5, 2.5))
 
 
+ACROSS_THE_KITCHEN = World.of(SchematicMap((*SKETCH.strokes, Polyline.through([(10.05, 0.0), (10.05, 5.0)]))))
+"""A wall that is not drawn; the goal beyond it is out of reach."""
+
+
+def test_where_no_way_leads_on_the_robot_tries_others_and_stops_as_near_as_it_can():
+    told = driven((11.7, 2.5), ACROSS_THE_KITCHEN, patience=2.0, time_limit=200.0)
+
+    assert Outcome.REACHED is told.outcome
+    assert 0 == told.collisions
+    assert "as near as the robot can come" in told.reason
+    assert 3.0 > math.dist(told.positions[-1], (11.7, 2.5))
+    assert Behavior.EXPLORE in {step.behavior for step in told.steps}
+
+
+def test_a_room_is_not_reached_from_outside_however_often_the_robot_tries():
+    shut = replace(WORLD, doors=(*DOOR_SHUT.doors, Door(np.array([9.0, 5.0, 10.0, 5.0]), ((0.0, math.inf),))))
+    told = driven("kitchen", shut, patience=2.0, time_limit=150.0)
+
+    assert Outcome.GAVE_UP is told.outcome
+
+
 def test_people_who_walk_through_the_door_are_not_touched():
     walker = Person(Polyline.through([(2.0, 2.5), (8.0, 2.5)]))
     told = driven((8.5, 2.5), replace(WORLD, people=(walker,)), time_limit=90.0)

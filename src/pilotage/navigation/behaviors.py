@@ -9,7 +9,7 @@ from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.braking import SLOW
 from pilotage.navigation.frontier import farthest, farthest_along, find_frontiers, frontier_worth
 from pilotage.navigation.plan import Plan
-from pilotage.navigation.situation import Situation
+from pilotage.navigation.situation import BESIDE, Situation
 from pilotage.navigation.step import Behavior, Outcome
 
 SAMPLE = 200
@@ -57,9 +57,17 @@ def arrive(now: Situation) -> Plan | None:
     arrival = now.arrival
     if arrival.doubt is not Doubt.NONE:
         return Plan(Behavior.LOOK_AROUND, now.stamp, arrival=arrival)
+    return Plan(Behavior.REST, now.stamp, leg=now.leg, outcome=Outcome.REACHED, reason=reason_of_arrival(now))
+
+
+def reason_of_arrival(now: Situation) -> str:
+    """Say what is reached; if it is a point, how far it is off where the robot comes no nearer."""
     goal = now.planner.goal
-    where = f"{goal.name!r} ({goal.cell_id})" if goal.is_room else f"the goal in {now.estimate.cell_id}"
-    return Plan(Behavior.REST, now.stamp, leg=now.leg, outcome=Outcome.REACHED, reason=f"{where} is reached")
+    if now.is_in_goal_room or goal.is_room or now.leg is None:
+        return f"{goal.name!r} ({goal.cell_id}) is reached"
+    if now.leg.distance < BESIDE:
+        return f"the goal in {goal.cell_id} is reached"
+    return f"the goal in {goal.cell_id} is reached as near as the robot can come: {now.leg.distance:.1f} m"
 
 
 def follow_route(now: Situation) -> Plan | None:

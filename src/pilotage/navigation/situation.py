@@ -31,7 +31,12 @@ AT_END = 0.3
 """Distance [m] from the end of the path at which the robot can come no nearer."""
 
 BESIDE = 1.0
-"""Distance [m] from the goal at which the robot may stop if an obstacle stands on it."""
+"""Distance [m] from the goal at which the robot may stop if it can come no nearer; as much more each time that
+it stalled on its route.
+
+A niche that is drawn and not built, or a corridor that is drawn too long, ends before the goal. The robot tries
+the other routes first, and stops at the dead end when they led nowhere, too.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,14 +79,15 @@ class Situation:
 
     @property
     def is_at_goal(self) -> bool:
-        """Whether the leading pose is at the goal, or beside it if an obstacle stands there."""
-        if self.leg is None or self.leg.next_cell_id:
+        """Whether the leading pose is at the goal, or as near to it as the robot can come."""
+        if self.leg is None or (self.leg.next_cell_id and self.planner.goal.is_room):
             return False
         distance, plan = self.leg.distance, self.approach
         if distance < self.settings.near:
-            return True
+            return not self.leg.next_cell_id
         left = float(np.hypot(*(plan.path[-1] - self.local_grid.odom_from_base.position)))
-        return plan.gap > self.settings.near and left < AT_END and distance < BESIDE
+        is_no_nearer = plan.gap > self.settings.near and left < AT_END
+        return is_no_nearer and distance < BESIDE * (1 + self.memory.detours)
 
     @property
     def arrival(self) -> Arrival:
