@@ -8,6 +8,7 @@ from made_up_drive import GRAPH, through_the_door
 from pilotage.cli.drive import EVERY, draw, follow, story
 from pilotage.cli.exits import Stopped
 from pilotage.drives import Instant
+from pilotage.localization import Status
 from pilotage.navigation import Outcome
 
 DRIVE = through_the_door()
@@ -38,6 +39,15 @@ def test_a_drawing_that_does_not_fit_is_said_and_no_place_is_claimed():
 
     assert "the robot gave up: this drawing does not fit this building. It first claimed" in told
     assert "believes" not in told
+
+
+def test_what_speaks_against_having_reached_the_goal_is_said():
+    last = DRIVE.steps[-1]
+    doubtful = replace(last, distance=2.34, estimate=replace(last.estimate, status=Status.MISMATCH))
+    told = story(replace(DRIVE, steps=(*DRIVE.steps[:-1], doubtful)))
+
+    assert "It found no way nearer to it than 2.3 m." in told
+    assert "drawings of other buildings explain the way better" in told
 
 
 def test_a_room_that_is_reached_is_not_called_a_point():

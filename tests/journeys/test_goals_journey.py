@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from knowing import with_leading
 from pilotage import worlds
 from pilotage.config import Settings
 from pilotage.drives import Drive, drive, set_out
@@ -39,11 +40,11 @@ def test_a_room_that_is_named_is_reached_without_a_start():
 
 
 class Unfit(Localizer):
-    """Says that the drawing does not fit, as a localizer must once it has seen enough of another building."""
+    """Says that nothing of the drawing fits, as a localizer must once it has seen enough of another."""
 
     @property
     def estimate(self):
-        return replace(super().estimate, status=Status.MISMATCH)
+        return with_leading(replace(super().estimate, status=Status.MISMATCH), probability=0.1)
 
     def update(self, scan, odometry):
         super().update(scan, odometry)

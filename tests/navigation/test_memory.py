@@ -125,8 +125,9 @@ def test_a_doubt_ends_where_nothing_leads_on():
     assert Doubt.NONE is followed.arrival.doubt
 
 
-def test_a_mismatch_is_timed_from_its_beginning_and_forgotten_at_its_end():
-    wrong, right = standing(status=Status.MISMATCH), standing()
+@pytest.mark.parametrize("found", [{}, {"status": Status.MISMATCH}])
+def test_a_mismatch_is_timed_from_its_beginning_and_forgotten_once_a_place_is_known(found):
+    wrong, right = standing(status=Status.MISMATCH, probability=0.4), standing(**found)
     plan = Plan(Behavior.EXPLORE, path=PATH)
     memory = Memory().updated(plan, 5.0, wrong, SETTINGS).updated(plan, 6.0, wrong, SETTINGS)
 

@@ -205,6 +205,10 @@ def test_once_a_drive_is_over_the_robot_brakes_and_rests():
     assert 0.0 == simulator.twist.linear
 
 
+def astray(estimate):
+    return with_leading(replace(estimate, status=Status.MISMATCH), probability=0.1)
+
+
 def lost(estimate):
     return with_leading(replace(estimate, status=Status.LOST), probability=0.1)
 
@@ -284,8 +288,7 @@ def test_a_robot_that_is_not_sure_where_in_the_place_drives_on_along_the_doubt()
 
 @pytest.mark.parametrize("goal", ["kitchen", (8.0, 2.5), (2.5, 2.5)])
 def test_a_drawing_that_does_not_fit_is_given_up_and_its_goal_never_reached(goal):
-    mismatch = knowing(lambda estimate: replace(estimate, status=Status.MISMATCH))
-    told = driven(goal, localizer=mismatch, mismatch_patience=12.0, time_limit=60.0)
+    told = driven(goal, localizer=knowing(astray), mismatch_patience=12.0, time_limit=60.0)
 
     assert Outcome.MISMATCH is told.outcome
     assert "this drawing does not fit this building" == told.reason
@@ -294,10 +297,16 @@ def test_a_drawing_that_does_not_fit_is_given_up_and_its_goal_never_reached(goal
     assert {Behavior.CROSS, Behavior.GO_THROUGH}.isdisjoint(step.behavior for step in told.steps)
 
 
+def test_a_place_that_is_sure_is_acted_on_though_the_drawing_fits_badly():
+    mismatch = knowing(lambda estimate: replace(estimate, status=Status.MISMATCH))
+    told = driven((8.0, 2.5), localizer=mismatch, mismatch_patience=2.0, time_limit=60.0)
+
+    assert has_arrived(told, (8.0, 2.5))
+
+
 def test_a_mismatch_that_passes_is_forgotten():
     def passing(estimate):
-        is_wrong = 2.0 <= estimate.stamp < 8.0
-        return replace(estimate, status=Status.MISMATCH) if is_wrong else estimate
+        return astray(estimate) if 2.0 <= estimate.stamp < 8.0 else estimate
 
     told = driven((8.0, 2.5), localizer=knowing(passing), mismatch_patience=7.0, time_limit=60.0)
 

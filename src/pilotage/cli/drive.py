@@ -1,5 +1,6 @@
 """Drive in the simulator, show how it goes, and leave a folder: what `navigate` and `demo` share."""
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -139,6 +140,19 @@ def story(recorded: "Drive") -> str:
     return f"{ending(recorded)} It {found}{lost} and touched {touched}."
 
 
+def caveats(recorded: "Drive") -> str:
+    """Say what speaks against having reached the goal."""
+    from pilotage.localization import Status
+    from pilotage.navigation.situation import BESIDE
+
+    last, said = recorded.steps[-1], ""
+    if not recorded.goal.is_room and BESIDE < last.distance < math.inf:
+        said += f" It found no way nearer to it than {last.distance:.1f} m."
+    if last.estimate.status is Status.MISMATCH:
+        said += " But drawings of other buildings explain the way better than this one."
+    return said
+
+
 def ending(recorded: "Drive") -> str:
     """Say how the drive ended, and where the robot believes to be."""
     from pilotage.figures.words import clock, name_cell
@@ -151,7 +165,7 @@ def ending(recorded: "Drive") -> str:
         return f"After {effort}: {last.reason}. The robot believes to be in {here}."
     if last.outcome is Outcome.REACHED:
         where = f"in {here}" if goal.is_room else f"at the goal, in {here}"
-        return f"After {effort} the robot says that it stands {where}."
+        return f"After {effort} the robot says that it stands {where}.{caveats(recorded)}"
     if last.outcome is Outcome.MISMATCH:
         return f"After {effort} the robot gave up: {last.reason}."
     if last.outcome is Outcome.GAVE_UP:

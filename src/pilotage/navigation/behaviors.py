@@ -20,7 +20,7 @@ AT_GATEWAY = 1.0
 
 
 def give_up(now: Situation) -> Plan | None:
-    """End the drive when its time is over, or when the drawing has not fitted the building for long."""
+    """End the drive when its time is over, or when no place of the drawing has fitted for long."""
     settings = now.settings
     if now.stamp - now.memory.mismatch_since >= settings.mismatch_patience:
         reason = "this drawing does not fit this building"

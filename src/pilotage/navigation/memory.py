@@ -38,7 +38,7 @@ class Memory:
     exploration: Exploration = field(default_factory=Exploration)
     detours: int = 0  # how often the robot stalled on its route
     detour_until: float = -math.inf  # [s] stamp until which it explores because of that
-    mismatch_since: float = math.inf  # [s] stamp since when the drawing does not fit
+    mismatch_since: float = math.inf  # [s] stamp since when the drawing does not fit and no place is known
     blocked_way: BlockedWay | None = None  # in odom; found blocked on the route since the last plan
 
     @classmethod
@@ -64,13 +64,13 @@ class Memory:
         if position.turned < memory.look_until:
             return replace(memory, stall=StallDetector())
         estimate, here = position.estimate, position.odom_from_base.position
-        is_mismatch = estimate.status is Status.MISMATCH
+        is_astray = estimate.status is Status.MISMATCH and estimate.probability < settings.act_on
         memory = replace(
             memory,
             stall=memory.stall.updated(stamp, here, settings.patience),
             blocked=memory.blocked.reopened(stamp, settings.blocked_for),
             arrival=memory.arrival.updated(stamp, estimate.probability, estimate.position_std, settings.sure),
-            mismatch_since=min(memory.mismatch_since, stamp) if is_mismatch else math.inf,
+            mismatch_since=min(memory.mismatch_since, stamp) if is_astray else math.inf,
         )
         if memory.stall.is_stalled(settings.patience):
             memory = after_stall(memory, plan, stamp)

@@ -169,7 +169,7 @@ class Navigator:
     def _situation(self, stamp: float, memory: Memory) -> Situation:
         """Gather what behaviors look at."""
         position, estimate = self.position, self.position.estimate
-        knows = estimate.status is not Status.MISMATCH and estimate.probability >= self.settings.act_on
+        knows = estimate.probability >= self.settings.act_on
         explores = memory.arrival.doubt is Doubt.WHICH_PLACE or stamp < memory.detour_until
         leg = None
         if knows and not explores:

@@ -19,7 +19,7 @@ class NavigatorSettings:
     near: float = 0.2  # [m] to a goal that is a point
     patience: float = 8.0  # [s] without getting away from a place before something else is tried
     blocked_for: float = 300.0  # [s] for which a gateway that was found blocked is not tried again
-    mismatch_patience: float = 60.0  # [s] of mismatch between drawing and building before it gives up
+    mismatch_patience: float = 60.0  # [s] of mismatch without a place to act on before it gives up
     steering: SteeringSettings = field(default_factory=SteeringSettings)
     route: RouteSettings = field(default_factory=RouteSettings)
 

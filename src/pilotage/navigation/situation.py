@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from pilotage.geometry import Array, Twist
-from pilotage.localization import Estimate, Status
+from pilotage.localization import Estimate
 from pilotage.navigation.arrival import Arrival
 from pilotage.navigation.local_grid import LocalGrid, ReachableSet
 from pilotage.navigation.memory import Memory
@@ -31,11 +31,11 @@ AT_END = 0.3
 """Distance [m] from the end of the path at which the robot can come no nearer."""
 
 BESIDE = 1.0
-"""Distance [m] from the goal at which the robot may stop if it can come no nearer; as much more each time that
-it stalled on its route.
+"""Distance [m] from the goal at which the robot may stop if it can come no nearer; as much more each time
+that it stalled on its route.
 
-A niche that is drawn and not built, or a corridor that is drawn too long, ends before the goal. The robot tries
-the other routes first, and stops at the dead end when they led nowhere, too.
+A niche that is drawn and not built, or a corridor that is drawn too long, ends before the goal. The robot
+tries the other routes first, and stops at the dead end when they led nowhere, too (decision 0035).
 """
 
 
@@ -69,13 +69,15 @@ class Situation:
         return Plan(Behavior.CROSS, self.stamp, reachable.path_to(index), self.leg, waypoint)
 
     @property
+    def knows_place(self) -> bool:
+        """Whether a place is probable enough to act on, however well the drawing fits."""
+        return self.estimate.probability >= self.settings.act_on
+
+    @property
     def is_in_goal_room(self) -> bool:
         """Whether the goal is a room, and the robot is sure to be in it."""
-        return (
-            self.estimate.status is Status.LOCATED
-            and self.estimate.cell_probability >= self.settings.sure
-            and self.planner.goal.is_room_around(self.estimate, self.planner.graph)
-        )
+        is_sure = self.knows_place and self.estimate.cell_probability >= self.settings.sure
+        return is_sure and self.planner.goal.is_room_around(self.estimate, self.planner.graph)
 
     @property
     def is_at_goal(self) -> bool:
@@ -95,10 +97,9 @@ class Situation:
         if self.is_in_goal_room:
             return Arrival(self.memory.arrival.times_doubted)
         estimate = self.estimate
-        is_located = estimate.status is Status.LOCATED
         anywhere = self.planner.goal.is_room or not self.has_moved  # then it stands where it was told
         probability = estimate.cell_probability if anywhere else estimate.probability
         position_std = 0.0 if anywhere else estimate.position_std
         return self.memory.arrival.judged(
-            self.stamp, probability if is_located else 0.0, position_std, self.settings.sure
+            self.stamp, probability if self.knows_place else 0.0, position_std, self.settings.sure
         )
