@@ -302,6 +302,7 @@ def test_a_place_that_is_sure_is_acted_on_though_the_drawing_fits_badly():
     told = driven((8.0, 2.5), localizer=mismatch, mismatch_patience=2.0, time_limit=60.0)
 
     assert has_arrived(told, (8.0, 2.5))
+    assert told.reason.endswith("is reached, though the drawing fits badly")
 
 
 def test_a_mismatch_that_passes_is_forgotten():

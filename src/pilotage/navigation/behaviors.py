@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pilotage.localization import Status
 from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.braking import SLOW
 from pilotage.navigation.frontier import farthest, farthest_along, find_frontiers, frontier_worth
@@ -61,13 +62,13 @@ def arrive(now: Situation) -> Plan | None:
 
 
 def reason_of_arrival(now: Situation) -> str:
-    """Say what is reached; if it is a point, how far it is off where the robot comes no nearer."""
+    """Say what is reached, and what speaks against it: a distance that is left, a drawing that fits badly."""
     goal = now.planner.goal
-    if now.is_in_goal_room or goal.is_room or now.leg is None:
-        return f"{goal.name!r} ({goal.cell_id}) is reached"
-    if now.leg.distance < BESIDE:
-        return f"the goal in {goal.cell_id} is reached"
-    return f"the goal in {goal.cell_id} is reached as near as the robot can come: {now.leg.distance:.1f} m"
+    reason = f"{goal.name!r} ({goal.cell_id})" if goal.is_room else f"the goal in {goal.cell_id}"
+    reason += " is reached"
+    if not goal.is_room and now.leg is not None and now.leg.distance >= BESIDE:
+        reason += f" as near as the robot can come: {now.leg.distance:.1f} m"
+    return reason + (", though the drawing fits badly" if now.estimate.status is Status.MISMATCH else "")
 
 
 def follow_route(now: Situation) -> Plan | None:
