@@ -26,5 +26,5 @@ class Observation:
 
 def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
     """Take what is compared with a drawing from a scan and its perceived shapes, in the robot's frame."""
-    corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS))
+    corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS, compiled=True))
     return Observation(thin_scan(scan), corners, motion, scan.stamp, scan.view)

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.geometry import Array, Polyline
 from pilotage.kernels import evolution
 
@@ -40,8 +41,12 @@ def simplify(polyline: Polyline, until: Simplification) -> Polyline:
     return simplify_all([polyline], until)[0]
 
 
-def simplify_all(polylines: Sequence[Polyline], until: Simplification) -> tuple[Polyline, ...]:
+def simplify_all(
+    polylines: Sequence[Polyline], until: Simplification, *, compiled: bool = False
+) -> tuple[Polyline, ...]:
     """Simplify polylines jointly: none comes to cross another, or to leave one that ends on it.
+
+    Who does so again and again asks for the `compiled` kernel, which takes a second to load.
 
     >>> cable = Polyline.through([(0, 0), (1, 0.1), (2, 0)])
     >>> pin = Polyline.through([(1, -1), (1, 0.05)])
@@ -53,7 +58,8 @@ def simplify_all(polylines: Sequence[Polyline], until: Simplification) -> tuple[
     starts = np.cumsum([0, *(len(polyline) for polyline in polylines)])
     closed = np.array([polyline.closed for polyline in polylines])
     vertices = np.vstack([polyline.vertices for polyline in polylines])
-    keep = evolution.evolve_runs(vertices, starts, closed, until.min_relevance)
+    kernel = kernels.evolution_compiled if compiled else evolution
+    keep = kernel.evolve_runs(vertices, starts, closed, until.min_relevance)
     return tuple(
         polyline.subset(np.flatnonzero(keep[first:last]))
         for polyline, (first, last) in zip(polylines, pairwise(starts), strict=True)
