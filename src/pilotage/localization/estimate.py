@@ -7,8 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from pilotage import kernels
 from pilotage.geometry import Affine2, Array, Pose2
-from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state, weighted_sum
+from pilotage.localization.particles import LOG_SCALE, Particles, X, Y, mean_state
 from pilotage.localization.tracks import Tracks
 from pilotage.maps import Atlas, FileAxes
 
@@ -168,12 +169,13 @@ def summarize(
 def find_hypotheses(particles: Particles, atlas: Atlas) -> tuple[PoseHypothesis, ...]:
     """Gather particles around the densest points, the most probable first; at least one."""
     mass, remaining = math.exp(particles.log_mass), particles.shares
+    table = atlas.range_table
+    bounds = (*table.corner, table.columns * table.cell_size, table.rows * table.cell_size)
     found: list[PoseHypothesis] = []
     while len(found) < MAX_HYPOTHESES:
-        middle, scale = _densest(particles, remaining, atlas)
-        distance = np.hypot(particles.states[X] - middle[0], particles.states[Y] - middle[1]) / scale
-        radius = max(RADIUS, float(distance[remaining > 0.0].min()))  # scales may differ: never none
-        members = (distance <= radius) & (remaining > 0.0)
+        members = kernels.density.gather_densest(
+            particles.states, remaining, bounds, DENSITY_BLOCK, MAX_BLOCKS, RADIUS
+        )
         if found and mass * float(remaining[members].sum()) < MIN_PROBABILITY:
             break
         found.append(_hypothesis(particles.states[:, members], remaining[members], mass, atlas))
@@ -203,24 +205,6 @@ def calibrated(hypotheses: tuple[PoseHypothesis, ...]) -> tuple[PoseHypothesis, 
     left = (1.0 - probability) / max(1.0 - first.probability, 1e-9)
     rest = (replace(one, probability=min(one.probability * left, probability)) for one in others)
     return (replace(first, probability=probability), *rest)
-
-
-def _densest(particles: Particles, weights: Array, atlas: Atlas) -> tuple[Array, float]:
-    """Find the middle of the three by three blocks with the largest weight, and the scale there."""
-    scale = math.exp(float(weighted_sum(particles.states[LOG_SCALE], weights)) / float(weights.sum()))
-    table = atlas.range_table
-    extent = np.array([table.columns, table.rows]) * table.cell_size
-    size = max(DENSITY_BLOCK * scale, float(extent.max()) / MAX_BLOCKS)
-    low, high = np.array(table.corner) - size, extent + 2.0 * size
-    cells = np.floor(np.clip((particles.states[:2].T - low), 0.0, high) / size).astype(np.int64) + 1
-    shape = cells.max(axis=0) + 2
-    flat = cells[:, 0] * shape[1] + cells[:, 1]
-    masses = np.bincount(flat, weights, int(shape.prod())).reshape(shape)
-    summed = sum(masses[i : i + shape[0] - 2, j : j + shape[1] - 2] for i in range(3) for j in range(3))
-    best = np.array(np.unravel_index(int(np.argmax(summed)), (shape[0] - 2, shape[1] - 2))) + 1
-    inside = (np.abs(cells - best) <= 1).all(axis=1) & (weights > 0.0)
-    middle = mean_state(particles.states[:, inside], weights[inside])
-    return middle[:2], math.exp(float(middle[LOG_SCALE]))
 
 
 def _hypothesis(states: Array, weights: Array, mass: float, atlas: Atlas) -> PoseHypothesis:
