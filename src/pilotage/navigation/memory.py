@@ -64,7 +64,7 @@ class Memory:
         if position.turned < memory.look_until:
             return replace(memory, stall=StallDetector())
         estimate, here = position.estimate, position.odom_from_base.position
-        is_astray = estimate.status is Status.MISMATCH and estimate.probability < settings.act_on
+        is_astray = estimate.status is Status.MISMATCH and not settings.knows_place(estimate)
         memory = replace(
             memory,
             stall=memory.stall.updated(stamp, here, settings.patience),

@@ -169,7 +169,7 @@ class Navigator:
     def _situation(self, stamp: float, memory: Memory) -> Situation:
         """Gather what behaviors look at."""
         position, estimate = self.position, self.position.estimate
-        knows = estimate.probability >= self.settings.act_on
+        knows = self.settings.knows_place(estimate)
         explores = memory.arrival.doubt is Doubt.WHICH_PLACE or stamp < memory.detour_until
         leg = None
         if knows and not explores:

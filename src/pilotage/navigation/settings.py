@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
+from pilotage.localization import Estimate
 from pilotage.maps import RouteSettings
 from pilotage.navigation.braking import SteeringSettings
 
@@ -22,6 +23,10 @@ class NavigatorSettings:
     mismatch_patience: float = 60.0  # [s] of mismatch without a place to act on before it gives up
     steering: SteeringSettings = field(default_factory=SteeringSettings)
     route: RouteSettings = field(default_factory=RouteSettings)
+
+    def knows_place(self, estimate: Estimate) -> bool:
+        """Tell whether a place is probable enough to act on, however well the drawing fits."""
+        return estimate.probability >= self.act_on
 
     @property
     def rectangle(self) -> tuple[float, float] | None:

@@ -69,14 +69,10 @@ class Situation:
         return Plan(Behavior.CROSS, self.stamp, reachable.path_to(index), self.leg, waypoint)
 
     @property
-    def knows_place(self) -> bool:
-        """Whether a place is probable enough to act on, however well the drawing fits."""
-        return self.estimate.probability >= self.settings.act_on
-
-    @property
     def is_in_goal_room(self) -> bool:
         """Whether the goal is a room, and the robot is sure to be in it."""
-        is_sure = self.knows_place and self.estimate.cell_probability >= self.settings.sure
+        knows = self.settings.knows_place(self.estimate)
+        is_sure = knows and self.estimate.cell_probability >= self.settings.sure
         return is_sure and self.planner.goal.is_room_around(self.estimate, self.planner.graph)
 
     @property
@@ -93,13 +89,11 @@ class Situation:
 
     @property
     def arrival(self) -> Arrival:
-        """The verdict at the goal: whether the robot may stop."""
+        """The verdict at the goal, where the robot knows a place to act on: whether it may stop."""
         if self.is_in_goal_room:
             return Arrival(self.memory.arrival.times_doubted)
         estimate = self.estimate
         anywhere = self.planner.goal.is_room or not self.has_moved  # then it stands where it was told
         probability = estimate.cell_probability if anywhere else estimate.probability
         position_std = 0.0 if anywhere else estimate.position_std
-        return self.memory.arrival.judged(
-            self.stamp, probability if self.knows_place else 0.0, position_std, self.settings.sure
-        )
+        return self.memory.arrival.judged(self.stamp, probability, position_std, self.settings.sure)
