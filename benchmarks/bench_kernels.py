@@ -198,6 +198,9 @@ def test_scores_of_particles(benchmark: BenchmarkFixture) -> None:
     scan_levels = np.round(np.log(rng.uniform(0.5, 5.0, 60)) / visibility.LOG_STEP).astype(np.int32)
     arguments = (
         states,
+        np.zeros((1, 3)),
+        np.ones(1),
+        np.array([0, 60]),
         (beams, scan_levels, np.zeros(60, dtype=np.int32)),
         np.clip(np.round(levels), 0, 255).astype(np.uint8),
         GRID,
@@ -205,6 +208,7 @@ def test_scores_of_particles(benchmark: BenchmarkFixture) -> None:
         -np.abs(np.arange(-400, 401) * visibility.LOG_STEP).astype(np.float32)[np.newaxis],
         (0, 0.0),
         -1.0,
+        0,
     )
     visibility.sum_over_beams(*arguments)
     benchmark(visibility.sum_over_beams, *arguments)

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pilotage.kernels import visibility as kernel
+from pilotage.kernels.displacement import displace
 
 DIRECTIONS = 180
 GRID = (-2.0, -2.0, 0.1, 40, 40)
@@ -46,6 +47,17 @@ def plain_sum(state, beams, ranges):
     return score
 
 
+def sums_of(states, scan, no_return=(0, 0.0), outside=-1.0):
+    """Sum over the beams of one scan, taken at the states."""
+    still, whole, starts = np.zeros((1, 3)), np.ones(1), np.array([0, len(scan[0])])
+    tables = kernel.stretch_tables(DIRECTIONS)
+    sums, crossings = kernel.sum_over_beams(
+        states, still, whole, starts, scan, LEVELS, GRID, tables, CLASSES, no_return, outside, 1
+    )
+    assert not crossings.any()
+    return sums
+
+
 @settings(max_examples=40)
 @given(
     place=st.tuples(st.floats(-1.9, 1.9), st.floats(-1.9, 1.9)),
@@ -61,16 +73,7 @@ def test_sums_follow_the_definition(place, heading, log_scale, stretch, ranges):
     levels = np.round(np.log(ranges) / kernel.LOG_STEP).astype(np.int32)
 
     classes = np.arange(len(ranges), dtype=np.int32) % 2
-    score = kernel.sum_over_beams(
-        state[:, np.newaxis],
-        (beams, levels, classes),
-        LEVELS,
-        GRID,
-        kernel.stretch_tables(DIRECTIONS),
-        CLASSES,
-        (0, 0.0),
-        -1.0,
-    )[0]
+    score = sums_of(state[:, np.newaxis], (beams, levels, classes))[0]
 
     # four lengths are rounded to whole steps, and a direction may fall to either side of a half step
     assert abs(score - plain_sum(state, beams, ranges)) <= classes.size * 2 * (2 * kernel.LOG_STEP + 0.05)
@@ -79,10 +82,40 @@ def test_sums_follow_the_definition(place, heading, log_scale, stretch, ranges):
 def score_one(x, levels, no_return=(0, -3.0)):
     state = np.array([[x], [0.01], [0.0], [0.0], [0.0], [0.0]])
     beams = np.zeros(len(levels), np.int32)
-    tables = kernel.stretch_tables(DIRECTIONS)
     levels = np.array(levels, np.int32)
-    scan = (beams, levels, np.zeros_like(beams))
-    return kernel.sum_over_beams(state, scan, LEVELS, GRID, tables, CLASSES, no_return, -5.0)[0]
+    return sums_of(state, (beams, levels, np.zeros_like(beams)), no_return, outside=-5.0)[0]
+
+
+@given(st.integers(0, 1000), st.integers(1, 5))
+def test_scans_along_a_way_add_up(seed, count):
+    rng = np.random.default_rng(seed)
+    states = rng.normal(0.0, [[0.9], [0.9], [2.0], [0.3], [0.3], [0.3]], (6, 30))
+    motions = rng.normal(0.0, 1.0, (count, 3)) * (np.arange(count) > 0)[:, np.newaxis]
+    weights = rng.random(count)
+    scans = []
+    for size in rng.integers(0, 10, count):
+        levels = rng.integers(-40, 40, size)
+        levels[rng.random(size) < 0.2] = kernel.NO_RETURN
+        scans.append([rng.integers(0, kernel.HEADINGS, size), levels, rng.integers(0, 2, size)])
+    scans = [tuple(column.astype(np.int32) for column in scan) for scan in scans]
+    starts = np.cumsum([0, *(len(scan[0]) for scan in scans)])
+    joined = tuple(np.concatenate(column) for column in zip(*scans, strict=True))
+    tables = kernel.stretch_tables(DIRECTIONS)
+
+    sums, crossings = kernel.sum_over_beams(
+        states, motions, weights, starts, joined, LEVELS, GRID, tables, CLASSES, (20, -3.0), -5.0, 1
+    )
+
+    expected, crossed, later = np.zeros(30), np.zeros(30), states[:2]
+    for k, (x, y, turn) in enumerate(motions):
+        then = states.copy()
+        then[:2] += displace(states, np.full(30, x), np.full(30, y))
+        then[2] += turn
+        expected += weights[k] * sums_of(then, scans[k], (20, -3.0), -5.0)
+        crossed += (k > 0) & kernel.cross_walls(then[:2].copy(), later - then[:2], LEVELS, GRID, 1)
+        later = then[:2]
+    np.testing.assert_allclose(sums, expected, atol=1e-9)
+    np.testing.assert_array_equal(crossings, crossed)
 
 
 def test_a_particle_off_the_drawing_pays_for_every_beam():

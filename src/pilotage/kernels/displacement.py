@@ -9,6 +9,18 @@ from pilotage.kernels.compiling import njit
 
 
 @njit(cache=True)
+def linear_map(heading: float, log_scale: float, p: float, q: float) -> tuple[float, float, float, float]:
+    """Return the matrix that turns, stretches and scales, row by row: scale * stretch @ rotation."""
+    cosine, sine = math.cos(heading), math.sin(heading)
+    scale, size = math.exp(log_scale), math.hypot(p, q)
+    # exp([[p, q], [q, -p]]) = cosh(size) I + sinh(size) / size [[p, q], [q, -p]]
+    even = scale * math.cosh(size)
+    share = scale * (math.sinh(size) / size if size > 0.0 else 1.0)
+    xx, xy, yy = even + share * p, share * q, even - share * p
+    return xx * cosine + xy * sine, xy * cosine - xx * sine, xy * cosine + yy * sine, yy * cosine - xy * sine
+
+
+@njit(cache=True)
 def displace(
     states: NDArray[np.float64], x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -18,13 +30,7 @@ def displace(
     """
     carried = np.empty((2, states.shape[1]))
     for i in range(states.shape[1]):
-        cosine, sine = math.cos(states[2, i]), math.sin(states[2, i])
-        turned_x, turned_y = cosine * x[i] - sine * y[i], sine * x[i] + cosine * y[i]
-        scale, p, q = math.exp(states[3, i]), states[4, i], states[5, i]
-        size = math.hypot(p, q)
-        # exp([[p, q], [q, -p]]) = cosh(size) I + sinh(size) / size [[p, q], [q, -p]]
-        even = math.cosh(size)
-        share = math.sinh(size) / size if size > 0.0 else 1.0
-        carried[0, i] = scale * ((even + share * p) * turned_x + share * q * turned_y)
-        carried[1, i] = scale * (share * q * turned_x + (even - share * p) * turned_y)
+        xx, xy, yx, yy = linear_map(states[2, i], states[3, i], states[4, i], states[5, i])
+        carried[0, i] = xx * x[i] + xy * y[i]
+        carried[1, i] = yx * x[i] + yy * y[i]
     return carried

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from pilotage.geometry import Array
 from pilotage.localization.blocked_way import log_ratio_of_ways
 from pilotage.localization.keyframes import Keyframe, choose_keyframes, corners_in_base, ways_in_base
-from pilotage.localization.motion_model import WALL_PENALTY, cross_walls
-from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, displacements
+from pilotage.localization.motion_model import WALL_PENALTY
+from pilotage.localization.particles import LOG_SCALE, Particles, X, Y
 from pilotage.localization.prior import Prior, draw_anywhere, draw_at_corners
 from pilotage.localization.sensor_model import SensorModel
 
@@ -73,18 +73,13 @@ def log_evidence(states: Array, keyframes: tuple[Keyframe, ...], model: SensorMo
     Each keyframe counts with this weight, [0..1].
     """
     base_from_odom = keyframes[0].odom_from_base.inverse()
-    scores = np.zeros(states.shape[1])
-    later = states[:2]
-    for keyframe in keyframes:
-        base_from_then = base_from_odom @ keyframe.odom_from_base
-        then = states.copy()
-        then[:2] += displacements(states, base_from_then.x, base_from_then.y)
-        then[HEADING] += base_from_then.theta
-        scores += weight * model.log_ratio(then, keyframe.scan)
-        if keyframe is not keyframes[0]:
-            scores -= WALL_PENALTY * cross_walls(then, later - then[:2], model.atlas)
-        later = then[:2]
-    return scores
+    motions = [base_from_odom @ keyframe.odom_from_base for keyframe in keyframes]
+    log_ratios, crossings = model.log_ratio_along(
+        states,
+        [keyframe.scan for keyframe in keyframes],
+        np.array([[motion.x, motion.y, motion.theta] for motion in motions]),
+    )
+    return weight * log_ratios - WALL_PENALTY * crossings
 
 
 def _best(scores: Array, count: int) -> NDArray[np.intp]:

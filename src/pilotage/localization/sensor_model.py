@@ -16,6 +16,7 @@ than "on no place of this drawing" it is.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,6 +25,7 @@ from numpy.typing import NDArray
 
 from pilotage import kernels
 from pilotage.geometry import Array
+from pilotage.localization.motion_model import WALL_TOLERANCE
 from pilotage.maps import Atlas
 from pilotage.perception import LaserScan
 
@@ -166,32 +168,57 @@ class SensorModel:
         All beams of a scan together weigh as much as `effective_beams` of them: it is the drawing that errs,
         and it errs for neighboring beams alike.
         """
-        if len(scan) == 0:
-            return np.zeros(states.shape[1])
+        return self.log_ratio_along(states, (scan,), np.zeros((1, 3)))[0]
+
+    def log_ratio_along(
+        self, states: Array, scans: Sequence[SparseScan], motions: Array
+    ) -> tuple[Array, NDArray[np.int64]]:
+        """Sum `log_ratio` of scans: the first from states (6, n), the others at motions (k, 3) from there.
+
+        Returns as well how many steps from scan to scan run through a drawn wall, (n,).
+        """
         settings = self.settings
-        sums = self._sum(states, scan, self.log_ratios, NO_RETURN_RATIO, math.log(settings.z_rand))
-        return np.asarray(sums * (settings.effective_beams / len(scan)) - settings.null_log_ratio)
+        weights = np.array([settings.effective_beams / max(len(scan), 1) for scan in scans])
+        sums, crossings = self._sum(
+            states, scans, motions, weights, self.log_ratios, NO_RETURN_RATIO, math.log(settings.z_rand)
+        )
+        return sums - settings.null_log_ratio * sum(len(scan) > 0 for scan in scans), crossings
 
     def fit(self, state: Array, scan: SparseScan) -> float:
         """Return the share of a scan's beams that show the drawn walls, seen from one state (6,), [0..1]."""
         if len(scan) == 0:
             return 0.0
-        return float(self._sum(state[:, np.newaxis], scan, self.hit_shares, 0.0, 0.0)[0]) / len(scan)
+        states, still, whole = state[:, np.newaxis], np.zeros((1, 3)), np.ones(1)
+        sums, _ = self._sum(states, (scan,), still, whole, self.hit_shares, 0.0, 0.0)
+        return float(sums[0]) / len(scan)
 
-    def _sum(
-        self, states: Array, scan: SparseScan, values: NDArray[np.float32], no_return: float, outside: float
-    ) -> Array:
-        """Sum a table over the beams, for each state."""
+    def _sum(  # noqa: PLR0917
+        self,
+        states: Array,
+        scans: Sequence[SparseScan],
+        motions: Array,
+        weights: Array,
+        values: NDArray[np.float32],
+        no_return: float,
+        outside: float,
+    ) -> tuple[Array, NDArray[np.int64]]:
+        """Sum a table over the beams of scans, for each state, and count the steps through walls."""
         table = self.atlas.range_table
-        beyond = round(math.log(NO_RETURN_BEYOND) / kernels.visibility.LOG_STEP)
-        sums: Array = kernels.visibility.sum_over_beams(
+        visibility = kernels.visibility
+        columns = [(scan.beams, scan.levels, scan.classes) for scan in scans]
+        beams, levels, classes = map(np.concatenate, zip(*columns, strict=True))
+        sums: tuple[Array, NDArray[np.int64]] = visibility.sum_over_beams(
             states,
-            (scan.beams, scan.levels, scan.classes),
+            motions,
+            weights,
+            np.cumsum([0, *(len(scan) for scan in scans)]),
+            (beams, levels, classes),
             table.log_ranges,
             table.grid,
             table.stretch_tables,
             values,
-            (beyond, no_return),
+            (round(math.log(NO_RETURN_BEYOND) / visibility.LOG_STEP), no_return),
             outside,
+            round(WALL_TOLERANCE / visibility.LOG_STEP),
         )
         return sums
