@@ -117,7 +117,8 @@ def sum_over_beams(
                 crossings[i] += is_beyond_wall(later_x - x, later_y - y, ranges, cell, tolerance)
             heading = math.floor((states[2, i] + motions[k, 2]) / math.tau * HEADINGS + 0.5) % HEADINGS
             total = 0.0
-            for j in range(starts[k], starts[k + 1]):  # an unsigned index is not asked if it is negative
+            for place in range(starts[k], starts[k + 1]):
+                j = np.uint64(place)  # an unsigned index is not asked whether it counts from the end
                 direction = np.uint64(heading + beams[j])
                 predicted = np.int32(ranges[np.uint64(directions[direction])]) + shift - lengths[direction]
                 if levels[j] == NO_RETURN:

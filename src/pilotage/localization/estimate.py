@@ -178,7 +178,7 @@ def find_hypotheses(particles: Particles, atlas: Atlas) -> tuple[PoseHypothesis,
         )
         if found and mass * float(remaining[members].sum()) < MIN_PROBABILITY:
             break
-        found.append(_hypothesis(particles.states[:, members], remaining[members], mass, atlas))
+        found.append(_hypothesis(particles.states.compress(members, axis=1), remaining[members], mass, atlas))
         remaining = np.where(members, 0.0, remaining)
         if not remaining.any():
             break

@@ -47,7 +47,7 @@ def global_search(
     weight = min(sum(one.novelty for one in window) / len(chosen), 1.0)
     for share, some in zip(KEPT, (chosen[:1], chosen[::2]), strict=True):
         scores = log_evidence(states, some, model, weight)
-        states = states[:, _best(scores, max(1, count // share))]
+        states = states.take(_best(scores, max(1, count // share)), axis=1)
     ways = ways_in_base(window)
 
     def score(some: Array) -> Array:

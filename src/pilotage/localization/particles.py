@@ -49,7 +49,7 @@ class Particles:
 
     def members(self, chosen: NDArray[np.intp]) -> "Particles":
         """Keep the particles at these indices, with their weights."""
-        return Particles(self.states[:, chosen], self.log_weights[chosen])
+        return Particles(self.states.take(chosen, axis=1), self.log_weights[chosen])
 
     def scaled(self, log_factors: Array | float) -> "Particles":
         """Multiply all weights by a factor, or each by its own (n,), given as logarithms."""
@@ -58,7 +58,7 @@ class Particles:
     def picked(self, count: int, offset: float = 0.5) -> Array:
         """Pick states at even steps of the summed shares (systematic resampling), (6, count)."""
         picked = np.searchsorted(np.cumsum(self.shares), (np.arange(count) + offset) / count)
-        return np.asarray(self.states[:, np.minimum(picked, len(self) - 1)])
+        return self.states.take(np.minimum(picked, len(self) - 1), axis=1)
 
     def resampled(self, count: int, rng: np.random.Generator) -> "Particles":
         """Draw particles by weight; all weigh the same then, and the mass stays."""

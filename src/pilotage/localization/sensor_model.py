@@ -188,7 +188,7 @@ class SensorModel:
         """Return the share of a scan's beams that show the drawn walls, seen from one state (6,), [0..1]."""
         if len(scan) == 0:
             return 0.0
-        states, still, whole = state[:, np.newaxis], np.zeros((1, 3)), np.ones(1)
+        states, still, whole = np.ascontiguousarray(state)[:, np.newaxis], np.zeros((1, 3)), np.ones(1)
         sums, _ = self._sum(states, (scan,), still, whole, self.hit_shares, 0.0, 0.0)
         return float(sums[0]) / len(scan)
 
