@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pilotage.kernels import (
         any_start,
         arc_correspondence,
+        blocks,
         contact,
         density,
         displacement,
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 __all__ = [
     "any_start",
     "arc_correspondence",
+    "blocks",
     "contact",
     "density",
     "displacement",

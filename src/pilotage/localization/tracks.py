@@ -9,13 +9,14 @@ ranges in any building, and all other likelihoods are ratios to it.
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pilotage import kernels
 from pilotage.geometry import Array
-from pilotage.localization.particles import HEADING, LOG_SCALE, Particles, X, Y, join, weighted_sum
+from pilotage.localization.particles import LOG_SCALE, Particles, join, weighted_sum
 from pilotage.maps import Atlas
 
 BLOCK = 1.0
@@ -23,9 +24,7 @@ BLOCK = 1.0
 SECTORS = 12
 """... if their headings lie in neighboring sectors as well; this is the number of sectors."""
 ROWS = 4_096
-"""Numbers of rows and of columns of blocks: what lies farther off shares the last ones."""
-LAST = ROWS - 2
-"""Number of the last row and column: an empty one follows, so that no block has neighbors on the far side."""
+"""Numbers of rows and of columns of blocks: what lies farther off shares the outermost."""
 MIN_SHARE = 1e-5
 """Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
 MINOR_SHARE = 0.02
@@ -123,7 +122,7 @@ def cluster(
     """
     if len(particles) == 0 or not particles.log_mass > -math.inf:
         return Tracks((), log_null)
-    keys, inverse = np.unique(_block_keys(particles, atlas), return_inverse=True)
+    keys, inverse = _blocks(particles, atlas)
     shares = np.bincount(inverse, particles.shares).astype(np.float64)
     count, labels = _connected(keys, shares > min(MIN_SHARE, 0.1 * float(shares.max())))
     of_particle = labels[inverse]
@@ -149,14 +148,15 @@ def as_one(particles: Particles, log_null: float, count: int, rng: np.random.Gen
     return Tracks((Track(_resample(particles, count, rng)),), log_null)
 
 
-def _block_keys(particles: Particles, atlas: Atlas) -> NDArray[np.int64]:
-    """Return the number of the block of position and heading of each particle, (n,)."""
+def _blocks(particles: Particles, atlas: Atlas) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
+    """Return the sorted keys of the blocks that hold particles, (k,), and which block each is in, (n,)."""
     size = BLOCK * math.exp(_mean_log_scale(particles))
     left, bottom = atlas.range_table.corner
-    column = np.clip(np.floor((particles.states[X] - left) / size) + 2, 0, LAST).astype(np.int64)
-    row = np.clip(np.floor((particles.states[Y] - bottom) / size) + 2, 0, LAST).astype(np.int64)
-    sector = np.floor(particles.states[HEADING] % math.tau / math.tau * SECTORS).astype(np.int64) % SECTORS
-    return np.asarray((column * ROWS + row) * SECTORS + sector)
+    keys, numbers = kernels.blocks.number_blocks(particles.states, left, bottom, size, ROWS, SECTORS)
+    order = np.argsort(keys)
+    ranks = np.empty_like(order)
+    ranks[order] = np.arange(len(order))
+    return keys[order], ranks[numbers]
 
 
 def _mean_log_scale(particles: Particles) -> float:
@@ -166,25 +166,9 @@ def _mean_log_scale(particles: Particles) -> float:
 
 def _connected(keys: NDArray[np.int64], kept: NDArray[np.bool_]) -> tuple[int, NDArray[np.intp]]:
     """Label the connected components of the kept blocks, -1 for the others; `keys` (n,) are sorted."""
-    from scipy.sparse import coo_matrix  # a quarter of a second that commands that do not localize are spared
-    from scipy.sparse.csgraph import connected_components
-
     labels = np.full(len(keys), -1, dtype=np.intp)
-    chosen = keys[kept]
-    sectors, rows, columns = chosen % SECTORS, chosen // SECTORS % ROWS, chosen // SECTORS // ROWS
-    blocks, neighbors = [], []
-    for i, j, k in product((-1, 0, 1), repeat=3):
-        beside = ((columns + i) * ROWS + rows + j) * SECTORS + (sectors + k) % SECTORS
-        found = np.minimum(np.searchsorted(chosen, beside), len(chosen) - 1)
-        match = np.flatnonzero(chosen[found] == beside)
-        blocks.append(match)
-        neighbors.append(found[match])
-    pairs = np.concatenate(blocks), np.concatenate(neighbors)
-    shape = (len(chosen), len(chosen))
-    graph = coo_matrix((np.ones(len(pairs[0]), dtype=np.int8), pairs), shape=shape)
-    count, components = connected_components(graph, directed=False)
-    labels[kept] = components
-    return int(count), labels
+    labels[kept] = kernels.blocks.connect_blocks(keys[kept], ROWS, SECTORS)
+    return int(labels.max()) + 1, labels
 
 
 def _counts(
