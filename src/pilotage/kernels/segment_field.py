@@ -55,14 +55,16 @@ def build_segment_field(segments: NDArray[np.float64], cell: float, reach: float
                 low, high = max(low, at - half), min(high, at + half)
             first = max(0, int((low - reach - left) / cell))
             last = min(columns - 1, int((high + reach - left) / cell))
-            for column in range(first, last + 1):
-                px, py = left + (column + 0.5) * cell - ax, y - ay
+            squares, owners = squared[row], nearest[row]
+            for place in range(first, last + 1):
+                column = np.uint64(place)  # an unsigned index is not asked whether it counts from the end
+                px, py = left + (place + 0.5) * cell - ax, y - ay
                 along = min(max(px * ux + py * uy, 0.0), length)
                 ex, ey = px - along * ux, py - along * uy
                 d = ex * ex + ey * ey
-                if d < squared[row, column] and d <= reach * reach:
-                    squared[row, column] = d
-                    nearest[row, column] = k
+                if d < squares[column] and d <= reach * reach:
+                    squares[column] = d
+                    owners[column] = k
     return SegmentField(segments, directions, lengths, left, bottom, cell, nearest, np.sqrt(squared))
 
 
