@@ -1,6 +1,5 @@
 """Drive in the simulator, show how it goes, and leave a folder: what `navigate` and `demo` share."""
 
-import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -143,10 +142,9 @@ def story(recorded: "Drive") -> str:
 def caveats(recorded: "Drive") -> str:
     """Say what speaks against having reached the goal."""
     from pilotage.localization import Status
-    from pilotage.navigation.situation import BESIDE
 
     last, said = recorded.steps[-1], ""
-    if not recorded.goal.is_room and BESIDE < last.distance < math.inf:
+    if recorded.goal.is_missed_by(last.distance):
         said += f" It found no way nearer to it than {last.distance:.1f} m."
     if last.estimate.status is Status.MISMATCH:
         said += " But drawings of other buildings explain the way better than this one."

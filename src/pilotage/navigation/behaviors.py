@@ -10,7 +10,7 @@ from pilotage.navigation.arrival import Doubt
 from pilotage.navigation.braking import SLOW
 from pilotage.navigation.frontier import farthest, farthest_along, find_frontiers, frontier_worth
 from pilotage.navigation.plan import Plan
-from pilotage.navigation.situation import BESIDE, Situation
+from pilotage.navigation.situation import Situation
 from pilotage.navigation.step import Behavior, Outcome
 
 SAMPLE = 200
@@ -66,7 +66,7 @@ def reason_of_arrival(now: Situation) -> str:
     goal = now.planner.goal
     reason = f"{goal.name!r} ({goal.cell_id})" if goal.is_room else f"the goal in {goal.cell_id}"
     reason += " is reached"
-    if not goal.is_room and now.leg is not None and now.leg.distance >= BESIDE:
+    if now.leg is not None and goal.is_missed_by(now.leg.distance):
         reason += f" as near as the robot can come: {now.leg.distance:.1f} m"
     return reason + (", though the drawing fits badly" if now.estimate.status is Status.MISMATCH else "")
 

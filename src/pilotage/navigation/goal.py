@@ -13,6 +13,14 @@ from pilotage.maps.routing.roadmap import Point, check_allowed
 CLEAR_OF_GATEWAY = 0.5
 """Distance [m] from all gateways of a room at which the robot is in it and out of the way of others."""
 
+BESIDE = 1.0
+"""Distance [m] from a goal at which the robot may stop if it can come no nearer; as much more each time that
+it stalled on its route.
+
+A niche that is drawn and not built, or a corridor that is drawn too long, ends before the goal. The robot
+tries the other routes first, and stops at the dead end when they led nowhere, too (decision 0035).
+"""
+
 
 @dataclass(frozen=True, slots=True)
 class Goal:
@@ -26,6 +34,10 @@ class Goal:
     def is_room(self) -> bool:
         """Whether the goal is reached anywhere in its cell."""
         return self.name != ""
+
+    def is_missed_by(self, distance: float) -> bool:
+        """Tell whether a robot that stops is that far off [m], along the route, because it came no nearer."""
+        return not self.is_room and BESIDE <= distance < math.inf
 
     def is_room_around(self, estimate: Estimate, graph: CellGraph) -> bool:
         """Tell whether the leading pose stands in the goal's room, clear of its gateways."""

@@ -9,6 +9,7 @@ import numpy as np
 from pilotage.geometry import Array, Twist
 from pilotage.localization import Estimate
 from pilotage.navigation.arrival import Arrival
+from pilotage.navigation.goal import BESIDE
 from pilotage.navigation.local_grid import LocalGrid, ReachableSet
 from pilotage.navigation.memory import Memory
 from pilotage.navigation.plan import Plan
@@ -29,14 +30,6 @@ drives two were a third longer, and one ended beside its goal (decision 0014).
 
 AT_END = 0.3
 """Distance [m] from the end of the path at which the robot can come no nearer."""
-
-BESIDE = 1.0
-"""Distance [m] from the goal at which the robot may stop if it can come no nearer; as much more each time
-that it stalled on its route.
-
-A niche that is drawn and not built, or a corridor that is drawn too long, ends before the goal. The robot
-tries the other routes first, and stops at the dead end when they led nowhere, too (decision 0035).
-"""
 
 
 @dataclass(frozen=True, eq=False)
