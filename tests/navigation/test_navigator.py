@@ -170,6 +170,9 @@ def test_a_room_is_not_reached_from_outside_however_often_the_robot_tries():
     told = driven("kitchen", shut, patience=2.0, time_limit=150.0)
 
     assert Outcome.GAVE_UP is told.outcome
+    assert 5.0 < told.length
+    found_shut = {gateway_id for step in told.steps for gateway_id in step.closed_gateway_ids}
+    assert {gateway.gateway_id for gateway in GRAPH.gateways_of(KITCHEN)} <= found_shut
 
 
 def test_people_who_walk_through_the_door_are_not_touched():
@@ -398,6 +401,14 @@ def test_goals_are_visited_in_order_and_the_way_leads_back():
         assert GRAPH.cell_at(place) == GRAPH.cell_at(told.positions[told.step_at(visit.stamp)])
     assert 0.5 > np.hypot(*(told.positions[-1] - START.position))
     assert 0 == told.collisions
+
+
+def test_a_sure_robot_finds_back_although_the_drawing_fits_badly():
+    mismatch = knowing(lambda estimate: replace(estimate, status=Status.MISMATCH))
+    told = driven(Tour(("kitchen",), returns=True), localizer=mismatch, time_limit=60.0)
+
+    assert [Outcome.REACHED] * 2 == [visit.outcome for visit in told.steps[-1].visits]
+    assert 0.5 > np.hypot(*(told.positions[-1] - START.position))
 
 
 def test_a_goal_that_is_not_reached_in_its_time_is_left_out_and_told():

@@ -8,7 +8,7 @@ import numpy as np
 
 from pilotage.errors import PilotageError
 from pilotage.geometry import Twist
-from pilotage.localization import Localizer, Status
+from pilotage.localization import Localizer
 from pilotage.maps import RouteError
 from pilotage.maps.routing.roadmap import Point
 from pilotage.navigation.arrival import Doubt
@@ -154,7 +154,7 @@ class Navigator:
     def _find_home(self) -> None:
         """Tell where the drive began, as soon as the robot knows where it is."""
         estimate = self.position.localized
-        if self.home is None and estimate.status is Status.LOCATED:
+        if self.home is None and self.settings.knows_place(estimate):
             began = self.position.odom_from_base.inverse() @ self.position.trail[:1]
             sketch = self.position.localizer.atlas.sketch
             x, y = sketch.file_from_sketch(self.position.estimate.sketch_from_base @ began)[0].tolist()
