@@ -19,6 +19,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,6 +130,14 @@ def thin_scan(scan: LaserScan) -> SparseScan:
     return SparseScan(beams, np.where(returned, levels, visibility.NO_RETURN).astype(np.int32))
 
 
+class Scores(NamedTuple):
+    """What a beam counts."""
+
+    values: NDArray[np.float32]  # by class of range and e, (CLASSES, 2 k + 1)
+    no_return: float  # of a beam that does not return although a wall is near
+    outside: float  # of each beam of a state off the drawing
+
+
 @dataclass(frozen=True, eq=False)
 class SensorModel:
     """A drawing and the beam model, ready to weigh particles."""
@@ -179,9 +188,8 @@ class SensorModel:
         """
         settings = self.settings
         weights = np.array([settings.effective_beams / max(len(scan), 1) for scan in scans])
-        sums, crossings = self._sum(
-            states, scans, motions, weights, self.log_ratios, NO_RETURN_RATIO, math.log(settings.z_rand)
-        )
+        scores = Scores(self.log_ratios, NO_RETURN_RATIO, math.log(settings.z_rand))
+        sums, crossings = self._sum(states, scans, motions, weights, scores)
         return sums - settings.null_log_ratio * sum(len(scan) > 0 for scan in scans), crossings
 
     def fit(self, state: Array, scan: SparseScan) -> float:
@@ -189,20 +197,13 @@ class SensorModel:
         if len(scan) == 0:
             return 0.0
         states, still, whole = np.ascontiguousarray(state)[:, np.newaxis], np.zeros((1, 3)), np.ones(1)
-        sums, _ = self._sum(states, (scan,), still, whole, self.hit_shares, 0.0, 0.0)
+        sums, _ = self._sum(states, (scan,), still, whole, Scores(self.hit_shares, 0.0, 0.0))
         return float(sums[0]) / len(scan)
 
-    def _sum(  # noqa: PLR0917
-        self,
-        states: Array,
-        scans: Sequence[SparseScan],
-        motions: Array,
-        weights: Array,
-        values: NDArray[np.float32],
-        no_return: float,
-        outside: float,
+    def _sum(
+        self, states: Array, scans: Sequence[SparseScan], motions: Array, weights: Array, scores: Scores
     ) -> tuple[Array, NDArray[np.int64]]:
-        """Sum a table over the beams of scans, for each state, and count the steps through walls."""
+        """Sum scores over the beams of weighted scans, for each state, and count the steps through walls."""
         table = self.atlas.range_table
         visibility = kernels.visibility
         columns = [(scan.beams, scan.levels, scan.classes) for scan in scans]
@@ -216,9 +217,9 @@ class SensorModel:
             table.log_ranges,
             table.grid,
             table.stretch_tables,
-            values,
-            (round(math.log(NO_RETURN_BEYOND) / visibility.LOG_STEP), no_return),
-            outside,
+            scores.values,
+            (round(math.log(NO_RETURN_BEYOND) / visibility.LOG_STEP), scores.no_return),
+            scores.outside,
             round(WALL_TOLERANCE / visibility.LOG_STEP),
         )
         return sums
