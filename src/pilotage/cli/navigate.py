@@ -124,8 +124,10 @@ def navigate(
     and furniture.
 
     Points are in the drawing's own units and axes (in SVG and in pictures y points down); a label is a word
-    written in the drawing, and the drive then ends anywhere in that room. Of several goals, one that is not
-    reached in its time is left out, and said.
+    written in the drawing, and the drive then ends anywhere in that room. A point that
+    cannot be reached, behind a closed door or in a niche that is not there, counts as reached where the robot
+    comes nearest, after it has tried other ways; how much is missing is said. Of several goals, one that is
+    not reached in its time is left out, and said.
 
     A drive that ends without reaching its goal is no error: the exit status is 0, and the *outcome* in the
     last line of the journal tells.

@@ -98,7 +98,8 @@ class World:
         The search ends `within` so many metres, and that is the answer if there is nothing.
         """
         where = frozen_points(points, name="points", at_least=0)
-        return np.asarray(kernels.contact.clearances(np.array(where, order="C"), self.solid_grid, within))
+        writable = np.array(where, order="C")  # else the kernel is compiled for frozen points, too
+        return np.asarray(kernels.contact.clearances(writable, self.solid_grid, within))
 
     def is_free(self, points: ArrayLike, radius: float) -> NDArray[np.bool_]:
         """Tell at which points (n, 2) [m] a disc of this radius [m] touches nothing that always stands."""
