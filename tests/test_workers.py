@@ -1,6 +1,7 @@
 """Every task comes back once, whatever becomes of the processes that run it."""
 
 import contextlib
+import threading
 from pathlib import Path
 
 import pytest
@@ -66,6 +67,7 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(address, monkeypatch)
         Cluster(address)
 
     assert "\n" not in str(caught.value)
+    assert "IO loop" not in {thread.name for thread in threading.enumerate()}  # of a client that still waits
 
 
 def connected(address):

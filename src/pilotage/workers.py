@@ -3,6 +3,7 @@
 Results come as they are made, in any order. A task must give the same result wherever it runs.
 """
 
+import asyncio
 import multiprocessing
 import signal
 from collections import Counter, deque
@@ -132,6 +133,14 @@ def leave_signals_alone() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+async def knock(address: str) -> None:
+    """Connect with a scheduler, and leave it; raises OSError or ValueError if there is none."""
+    from distributed.comm.core import connect
+
+    connection = await connect(address, timeout=PATIENCE)
+    await connection.close()
+
+
 class Cluster:
     """Workers of a Dask scheduler, which gives the tasks of a dead worker to others (extra `cluster`).
 
@@ -146,6 +155,7 @@ class Cluster:
                 "a cluster needs the extra cluster: pip install 'pilotage[cluster]'"
             ) from error
         try:
+            asyncio.run(knock(address))  # a client that fails to connect may stop the start of a later one
             self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
         except (OSError, ValueError, AssertionError) as error:  # the last if its own thread does not start
             reason = (str(error) or type(error).__name__).splitlines()[0]
