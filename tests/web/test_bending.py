@@ -3,7 +3,9 @@
 import itertools
 import math
 import multiprocessing
+import os
 import sys
+import time
 from multiprocessing.connection import wait
 
 import numpy as np
@@ -89,13 +91,46 @@ def test_a_fit_that_fails_is_left_out_and_the_next_one_is_made(
     assert "" == capfd.readouterr().err
 
 
+@FORKS
+def test_the_last_fit_gives_way_to_nothing_and_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = [None] * SIGHTINGS
+    corrector = Bending(ATLAS, seen, multiprocessing.Pipe()[1])
+
+    def work(sightings):
+        def fit():
+            time.sleep(600.0 if len(sightings) == SIGHTINGS else 0.0)
+            return {"niceness": os.nice(0)}, 0.0
+
+        return fit
+
+    def forked(*given, **how):
+        begun.append(bending_forked(*given, **how))
+        return begun[-1]
+
+    begun, bending_forked = [], bending.forked
+    monkeypatch.setattr(bending, "forked", forked)
+    monkeypatch.setattr(corrector, "_work", work)
+    corrector.begin_if_due(is_over=False)
+    seen.append(None)
+    corrector.begin_if_due(is_over=False)
+    assert 1 == len(begun)
+    corrector.begin_if_due(is_over=True)
+    last = corrector.pipes
+    corrector.begin_if_due(is_over=True)
+
+    assert last == corrector.pipes
+    assert {"niceness": os.nice(0)} == heard(corrector)
+    with pytest.raises(ProcessLookupError):
+        os.kill(begun[0][0], 0)
+
+
 @settings(deadline=None)
 @given(st.floats(0.1, 20.0), st.lists(st.integers(1, 9), min_size=1, max_size=40))
 def test_fits_use_less_than_a_tenth_of_a_processor(takes: float, more: list[int]) -> None:
     clock, used, seen = [0.0], 0.0, []
     begun = []
 
-    def forked(*_: object):
+    def forked(*_: object, **__: object):
         here, there = multiprocessing.Pipe(duplex=False)
         there.send((FOUND, takes))
         begun.append(len(seen))

@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -40,14 +41,30 @@ class Bending:
         return [] if self._pipe is None else [self._pipe]
 
     def begin_if_due(self, *, is_over: bool) -> None:
-        """Begin a fit after some travel and some rest; when the drive is over, after any travel at all."""
-        if sys.platform == "win32" or self._pipe is not None:  # Windows cannot fork
+        """Begin a fit after some travel and some rest; when the drive is over, at once after any travel."""
+        if sys.platform == "win32":  # Windows cannot fork
             return
         self._used = min(self._used, len(self._sightings))  # a robot that was carried begins anew
-        fresh, now = len(self._sightings) - self._used, time.monotonic()
-        if fresh > 0 and (is_over or (fresh >= SIGHTINGS and now >= self._rests_until)):
+        fresh = len(self._sightings) - self._used
+        is_due = fresh >= SIGHTINGS and self._pipe is None and time.monotonic() >= self._rests_until
+        if is_due or (is_over and fresh > 0):
+            self._give_up()
             self._used = len(self._sightings)
-            self._process, self._pipe = forked(self._work(self._sightings[: self._used]), self._inherited)
+            work = self._work(self._sightings[: self._used])
+            self._process, self._pipe = forked(work, self._inherited, gives_way=not is_over)
+
+    def _give_up(self) -> None:
+        """End a fit that goes on: its sightings are a part of those of the next one."""
+        if self._pipe is not None:
+            os.kill(self._process, signal.SIGKILL)
+            self._end()
+
+    def _end(self) -> None:
+        """Let go of a process that has told what it found, or was ended."""
+        assert self._pipe is not None
+        self._pipe.close()
+        self._pipe = None
+        os.waitpid(self._process, 0)
 
     def result(self) -> Json | None:
         """Return what a fit has found, once its pipe is ready; None if the robot was not sure enough."""
@@ -57,9 +74,7 @@ class Bending:
             found, took = self._pipe.recv()
         except EOFError:
             found, took = None, 0.0  # it failed; the last one stands
-        self._pipe.close()
-        self._pipe = None
-        os.waitpid(self._process, 0)
+        self._end()
         self._rests_until = time.monotonic() + REST * took
         return found
 
@@ -74,15 +89,19 @@ class Bending:
         return work
 
 
-def forked(work: Work, inherited: Connection) -> tuple[int, Connection]:
-    """Do some work in a copy of this process; return its id, and where to hear what it returns."""
+def forked(work: Work, inherited: Connection, *, gives_way: bool) -> tuple[int, Connection]:
+    """Do some work in a copy of this process; return its id, and where to hear what it returns.
+
+    While the robot drives, the work gives way to it; after the drive a person waits for it.
+    """
     here, there = multiprocessing.Pipe(duplex=False)
     process = os.fork()
     if process == 0:
         try:
             inherited.close()
             here.close()
-            give_way()
+            if gives_way:
+                give_way()
             there.send(work())
         finally:
             os._exit(0)

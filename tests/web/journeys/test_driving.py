@@ -52,7 +52,7 @@ def test_a_robot_reaches_the_goal_on_a_drawing_made_real(sheet: Sheet) -> None:
     sheet.shot("drive")
     sheet.ended("reached")
     found = sheet.page.get_by_test_id("believed")
-    expect(found).to_have_attribute("data-corrected", re.compile(r"0\.[6-9]|1"), timeout=PATIENCE_MS)
+    expect(found).to_have_attribute("data-corrected", re.compile(r"0\.[6-9]|1"), timeout=2 * PATIENCE_MS)
     sheet.shot("reached")
     sheet.page.get_by_role("checkbox", name=re.compile("drawing as found: .* seen")).uncheck()
     expect(found).to_have_attribute("data-corrected", "")
