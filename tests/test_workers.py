@@ -1,5 +1,6 @@
 """Every task comes back once, whatever becomes of the processes that run it."""
 
+import asyncio
 import contextlib
 import threading
 from pathlib import Path
@@ -68,6 +69,17 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(address, monkeypatch)
 
     assert "\n" not in str(caught.value)
     assert "IO loop" not in {thread.name for thread in threading.enumerate()}  # of a client that still waits
+
+
+def test_a_cluster_can_be_asked_for_where_an_event_loop_runs(monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(workers_module, "PATIENCE", "1s")
+
+    async def notebook():
+        Cluster("tcp://127.0.0.1:1")
+
+    with pytest.raises(ClusterError, match="there is no scheduler of Dask at"):
+        asyncio.run(notebook())
 
 
 def connected(address):

@@ -8,7 +8,13 @@ import multiprocessing
 import signal
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from types import TracebackType
 from typing import Any, Protocol, Self, TypeVar
@@ -133,12 +139,19 @@ def leave_signals_alone() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-async def knock(address: str) -> None:
-    """Connect with a scheduler, and leave it; raises OSError or ValueError if there is none."""
+def knock(address: str) -> None:
+    """Connect with a scheduler, and leave it; raises OSError or ValueError if there is none.
+
+    In a thread of its own: the caller's may have an event loop that runs, as in a notebook.
+    """
     from distributed.comm.core import connect
 
-    connection = await connect(address, timeout=PATIENCE)
-    await connection.close()
+    async def visit() -> None:
+        connection = await connect(address, timeout=PATIENCE)
+        await connection.close()
+
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(lambda: asyncio.run(visit())).result()
 
 
 class Cluster:
@@ -155,7 +168,7 @@ class Cluster:
                 "a cluster needs the extra cluster: pip install 'pilotage[cluster]'"
             ) from error
         try:
-            asyncio.run(knock(address))  # a client that fails to connect may stop the start of a later one
+            knock(address)  # a client that fails to connect may stop the start of a later one
             self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
         except (OSError, ValueError, AssertionError) as error:  # the last if its own thread does not start
             reason = (str(error) or type(error).__name__).splitlines()[0]
