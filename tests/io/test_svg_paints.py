@@ -69,3 +69,11 @@ def test_squared_paper_is_no_fill(tmp_path):
 def test_a_dash_as_long_as_its_line_is_none(tmp_path, dashes, dashed):
     (mark,) = marks(tmp_path, f'<path d="M0 0H20" stroke="black" stroke-dasharray="{dashes}"/>')
     assert mark.pen.dashed is dashed
+
+
+def test_a_line_has_no_area_to_fill_though_it_inherits_a_fill(tmp_path):
+    for line in ('<line x2="9"/>', '<path d="M0 0H9"/>'):
+        (mark,) = marks(tmp_path, f'<g stroke="#fff" stroke-opacity="0.2">{line}</g>')
+        assert mark.fill is None
+        assert channels(mark.pen.color) == (255, 255, 255)
+        assert marks(tmp_path, line) == ()

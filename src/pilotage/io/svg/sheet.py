@@ -14,6 +14,7 @@ from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.outlines import FLATNESS
 from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
+from pilotage.io.svg.servers import has_area
 from pilotage.io.svg.style import leading_number, local_name
 from pilotage.io.svg.texts import read_texts
 from pilotage.io.svg.tree import OUTLINED, Drawn
@@ -60,7 +61,8 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
     outlines = tuple(flatten(shape.outline, tolerance))
     drawn, clip = shape.drawn, shape.clip
     pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= OPAQUE else None
-    fill = color_of(drawn, "fill") if drawn.style.filled and opacity(drawn, "fill") >= OPAQUE else None
+    filled = drawn.style.filled and has_area(drawn.element) and opacity(drawn, "fill") >= OPAQUE
+    fill = color_of(drawn, "fill") if filled else None
     if pen is None and drawn.style.stroked and fill is None:
         pen = read_pen(shape)
     if not outlines or (pen is None and fill is None):
