@@ -77,3 +77,22 @@ def test_a_line_has_no_area_to_fill_though_it_inherits_a_fill(tmp_path):
         assert mark.fill is None
         assert channels(mark.pen.color) == (255, 255, 255)
         assert marks(tmp_path, line) == ()
+
+
+@pytest.mark.parametrize(
+    ("attributes", "color"),
+    [
+        ('style="width: 100%; background: rgb(26, 26, 31)"', (26, 26, 31)),
+        ('style="background-color: light-dark(#102030, #fff); background: #fff"', (16, 32, 48)),
+        ('class="night"', (32, 64, 96)),
+        ('style="background: linear-gradient(#111, #222)"', (255, 255, 255)),
+        ('style="background: transparent"', (255, 255, 255)),
+        ("", (255, 255, 255)),
+    ],
+)
+def test_the_page_has_the_background_that_its_style_tells(tmp_path, attributes, color):
+    path = tmp_path / "drawing.svg"
+    style = "<style>:root { --ink: #204060 } .night { background: var(--ink) }</style>"
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {attributes}>{style}</svg>')
+
+    assert channels(read_svg_sheet(path).background) == color

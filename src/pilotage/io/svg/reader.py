@@ -12,13 +12,16 @@ import svgelements
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array, Polyline, signed_area
+from pilotage.interpretation import Color
 from pilotage.interpretation.paper import holds
+from pilotage.interpretation.sheet import WHITE as PAPER
 from pilotage.io.clip import Clip
+from pilotage.io.colors import read_color
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.clips import ROUNDING, Clips
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.outlines import FLATNESS, Bounds, bounds_of, outline_of
-from pilotage.io.svg.style import local_name
+from pilotage.io.svg.style import local_name, resolved
 from pilotage.io.svg.tree import WORDED, Document, Drawn
 from pilotage.io.svg.viewport import Viewport
 
@@ -49,6 +52,7 @@ class Content:
     texts: list[Drawn]
     page: Viewport | None
     metres_per_unit: float | None  # what the file claims
+    background: Color = PAPER  # of the page, as its style says
 
 
 def read_content(path: Path) -> Content:
@@ -63,7 +67,14 @@ def read_content(path: Path) -> Content:
         clips = Clips(document)
         shapes = [shape for item in items for shape in read_shape(item, clips)]
     texts = [item for item in items if local_name(item.element.tag) in WORDED and has_text(item)]
-    return Content(shapes, texts, document.page, read_scale(root))
+    return Content(shapes, texts, document.page, read_scale(root), read_background(document))
+
+
+def read_background(document: Document) -> Color:
+    """Read the color that a page in the browser has below the drawing; white if none is told."""
+    declared = document.declared_of_root
+    written = (declared.get(name, "") for name in ("background-color", "background"))
+    return next((color for value in written if (color := read_color(resolved(value)))), PAPER)
 
 
 def read_scale(root: ET.Element) -> float | None:

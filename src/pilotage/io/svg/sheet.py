@@ -48,6 +48,7 @@ def read_svg_sheet(path: Path) -> Sheet:
         marks,
         words + tuple(texts_of_labels(labels, letters, words)),
         bounds,
+        content.background,
         y_down=True,
         metres_per_unit=content.metres_per_unit,
         source=str(path),

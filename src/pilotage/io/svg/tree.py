@@ -11,7 +11,7 @@ from svgelements import Matrix, Viewbox
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.servers import REFERENCE, PaintServers
-from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name
+from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name, with_variables
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
 WORDED = ("text", "foreignObject", "flowRoot")
@@ -104,6 +104,12 @@ class Document:
         self.by_id = {element.get("id"): element for element in backwards if element.get("id")}
         self.servers = PaintServers(self.by_id, self.sheet)
         self.effort_for_clips = Effort()
+
+    @property
+    def declared_of_root(self) -> Mapping[str, str]:
+        """What attributes and style say of the whole drawing, variables put in."""
+        declared = self.sheet.declared(self.start.chain)
+        return {name: with_variables(value, declared) for name, value in declared.items()}
 
     def walk(self) -> Iterator[Drawn]:
         """Yield every shape and text in drawing order."""
