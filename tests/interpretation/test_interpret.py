@@ -111,6 +111,18 @@ def test_lines_in_a_color_that_are_named_walls_stay_though_they_end_short_of_oth
     assert ([[51.0, 40.0], [60.0, 40.0]] in [line.vertices.tolist() for line in found]) is (name == "WALLS")
 
 
+def test_dashed_axes_run_through_a_building_and_beyond_and_part_no_rooms():
+    walls = [box(*sides, fill=BLACK) for sides in ((0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80))]
+    walls += [box(*sides, fill=BLACK) for sides in ((96, 0, 100, 30), (96, 42, 100, 80))]
+    axes = [stroke((-15, y), (115, y), dashed=True) for y in (2, 50, 78)]
+
+    understood = interpret(Sheet((*walls, *axes)))
+
+    assert {Role.IGNORE} == {meaning.role for meaning in understood.meanings[-3:]}
+    assert len(graph_of(walls).cells) == len(graph_of((*walls, *axes)).cells)
+    assert len(graph_of(walls).cells) < len(graph_of((*walls, stroke((4, 50), (96, 50)))).cells)
+
+
 def test_dashed_lines_from_wall_to_wall_are_openings_if_others_are_drawn_through():
     wall, edge = stroke((50, 0), (50, 50)), stroke((50, 50), (50, 80), dashed=True)
     loose = stroke((50, 60), (50, 75), dashed=True)

@@ -1,4 +1,4 @@
-"""Find openings that are drawn as dashed lines from wall to wall: rooms that are open to each other."""
+"""Find dashed lines that are no walls: openings from wall to wall, and axes that run through a building."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -6,14 +6,14 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.paint import Seen, shapes_of
 from pilotage.interpretation.sheet import Role, Sheet
 
 MOSTLY = 0.5
 """Of a drawing of which a greater share is dashed, dashed lines are its walls."""
 
 LONGEST = 0.3
-"""Length of the widest opening, as a share of the drawing's diagonal."""
+"""Length of the widest opening, as a share of the drawing's diagonal; an axis is longer."""
 
 NEAR = 0.005
 """Ends that come this near to another line lie on it, as a share of the drawing's diagonal."""
@@ -29,7 +29,7 @@ def find_dashed(
 
     They are none if they are called walls, or if most lines of a drawing are dashed.
     """
-    dashed = {mark.number for mark in seen if (pen := sheet.marks[mark.number].pen) and pen.dashed}
+    dashed = dashed_among(sheet, seen)
     through = [mark.line for mark in seen if mark.number not in dashed]
     lengths = {mark.number: mark.line.length for mark in seen}
     if sum(lengths[number] for number in dashed) > MOSTLY * sum(lengths.values()):
@@ -43,6 +43,33 @@ def find_dashed(
         and guessed.get(mark.number, (Role.FURNITURE, ""))[0] is not Role.WALL
         and all(is_opening(line, tree, diagonal) for line in sheet.marks[mark.number].outlines)
     }
+
+
+def dashed_among(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
+    """List the marks that have a dashed line."""
+    return {mark.number for mark in seen if (pen := sheet.marks[mark.number].pen) and pen.dashed}
+
+
+def find_axes(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> set[int]:
+    """Find the marks that draw axes and sections: straight, dashed, and beyond all that they cross."""
+    dashed = dashed_among(sheet, seen)
+    through = shapes_of([mark for mark in seen if mark.number not in dashed]).ravel()
+    tree = shapely.STRtree(through)
+    found = set()
+    for mark in seen:
+        outlines = sheet.marks[mark.number].outlines
+        if mark.number not in dashed or len(outlines) != 1 or len(outlines[0]) != 2:
+            continue
+        line = shapely.LineString(outlines[0].vertices)
+        crossed = through[tree.query(line, predicate="intersects")]
+        if line.length <= LONGEST * diagonal or len(crossed) < 2:
+            continue
+        points = shapely.points(shapely.get_coordinates(shapely.intersection(line, crossed)))
+        along = shapely.line_locate_point(line, points)
+        beyond = min(along.min(), line.length - along.max())
+        if beyond > NEAR * diagonal and np.ptp(along) > MOSTLY * line.length:
+            found.add(mark.number)
+    return found
 
 
 def is_opening(line: Polyline, tree: shapely.STRtree, diagonal: float) -> bool:

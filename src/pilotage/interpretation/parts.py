@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import shapely
 
 from pilotage.interpretation.bars import Bar, find_bars, without_bars
-from pilotage.interpretation.dashed import find_dashed
+from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import Door, find_doors, without_doors
 from pilotage.interpretation.floors import find_floors
@@ -38,6 +38,7 @@ class Parts:
     bars: Sequence[Bar]  # patches across a wall
     halves: Sequence[Half]  # gaps in one of two lines
     dashed: AbstractSet[int]  # dashed lines from wall to wall
+    axes: AbstractSet[int]  # dashed lines through the building and beyond
     left: Sequence[Seen]  # `built` without doors, bars and halves
     lines: Sequence[Seen]  # of these, what may be a wall
     walls: Walls
@@ -52,6 +53,8 @@ def take_apart(view: View) -> Parts:
     unnamed = [mark for mark in built if mark.number not in view.guessed]
     signs, written = find_signs(sheet, unnamed, diagonal)
     built = [mark for mark in built if mark.number not in measuring | signs]
+    axes = find_axes(sheet, [mark for mark in built if mark.number not in view.guessed], diagonal)
+    built = [mark for mark in built if mark.number not in axes]
     doors = find_doors(sheet, built, diagonal)
     roles = {number: role for number, (role, _) in view.guessed.items()}
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
@@ -71,7 +74,9 @@ def take_apart(view: View) -> Parts:
         diagonal=diagonal,
     )
     stairs = find_stairs([mark for mark in left if view.role(mark) is Role.STAIRS], sheet, diagonal)
-    return Parts(measuring, signs, written, built, doors, bars, halves, dashed, left, lines, walls, stairs)
+    return Parts(
+        measuring, signs, written, built, doors, bars, halves, dashed, axes, left, lines, walls, stairs
+    )
 
 
 def may_be_floors(view: View) -> list[Mark]:
