@@ -45,6 +45,15 @@ def test_bars_on_outer_walls_are_windows():
     assert not number_of_doors((OUTSIDE, *WALLS, *windows))
 
 
+def test_bars_are_windows_though_the_edge_of_a_roof_is_drawn_around_the_walls():
+    windows = [stroke((x, 0), (x + 8, 0), width=3.0) for x in (5, 35, 60, 85)]
+    corners = ((-10, -10), (110, -10), (110, 90), (-10, 90), (-10, -10))
+
+    for dashed, doors in ((True, 0), (False, 4)):
+        marks = (OUTSIDE, *WALLS, *windows, stroke(*corners, dashed=dashed))
+        assert doors == len(interpret(Sheet(marks)).sketch.doors)
+
+
 def test_what_also_stands_in_rooms_is_furniture():
     shelves = [stroke((x, y), (x, y + 12), width=3.0) for x in (10, 37, 60, 90) for y in (20, 50)]
 

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Polyline
+from pilotage.interpretation.dashed import dashed_among
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.pieces import on_grid
 from pilotage.interpretation.segments import Segments, segments_of
@@ -75,22 +76,24 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
 
     A line may lie along its wall, or stand upright on it or across it with its other ends free.
     Where walls have gaps for doors, what lies on both sides of them is one room: there are no such marks.
-    One mark is enough if it is among those named doors.
+    Dashed lines part no rooms: outside of the walls they are the edge of a roof. One mark is enough if it is
+    among those named doors.
     """
     shapes: dict[object, list[int]] = defaultdict(list)
     for place, mark in enumerate(seen):
         drawn = sheet.marks[mark.number]
         shapes[drawn.pen, drawn.fill, mark.number in named].append(place)
+    dashed = dashed_among(sheet, seen)
     found: list[Bar] = []
     for places in shapes.values():
         least = 1 if seen[places[0]].number in named else ALIKE
         bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
         if len({bar.place for bar in bars}) < least:
             continue
-        own = set(places)
-        others = [mark for place, mark in enumerate(seen) if place not in own]
+        own = dashed.union(seen[place].number for place in places)
+        others = [mark for mark in seen if mark.number not in own]
         parting = {bar.place: bar for bar in parting_bars(bars, others, least, diagonal)}
-        if len(parting) >= (1 if least == 1 else max(PARTING, MOST * len(own))):
+        if len(parting) >= (1 if least == 1 else max(PARTING, MOST * len(places))):
             found.extend(parting.values())
     return found
 
