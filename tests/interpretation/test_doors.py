@@ -253,6 +253,19 @@ def test_a_thin_panel_in_a_color_of_its_own_is_a_sliding_door_inside_and_a_pane_
     assert {"bath", "hall"} in ends_of_gateways((*walls, *panes, *front, panel))
 
 
+@pytest.mark.parametrize(
+    ("color", "names", "closed"),
+    [((0.5, 0.7, 0.85), (), True), ((0.8, 0.8, 0.8), ("window",), True), ((0.8, 0.7, 0.6), (), False)],
+)
+def test_a_window_that_is_painted_over_a_wall_closes_it(color, names, closed):
+    walls = [box(*sides, fill=BLACK) for sides in (*OUTER, *INNER)]
+    pane = box(20, -0.3, 36, 4.3, fill=color, names=names)
+
+    outlines = interpret(Sheet((*walls, pane))).sketch.solids
+
+    assert (2 if closed else 1) == len(outlines)
+
+
 def test_what_is_named_a_window_closes_though_it_does_not_reach_the_next_wall():
     wall, pane = shapely.box(0, 0, 10, 2), shapely.box(10, 0, 20, 2)
     filled = shapely.union(wall, pane)

@@ -26,7 +26,14 @@ from pilotage.interpretation.solids import (
     painted_thickness,
     without_crumbs,
 )
-from pilotage.interpretation.windows import building, panes, windows, without_slivers
+from pilotage.interpretation.windows import (
+    building,
+    is_glass,
+    painted_glass,
+    panes,
+    windows,
+    without_slivers,
+)
 
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
@@ -91,7 +98,7 @@ class Drawn:
     main: shapely.Geometry  # lines in black or gray, as they were drawn: they may cross and overlap
     marginal: shapely.Geometry  # lines in a color, dashed and thin ones, likewise
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
-    glass: shapely.Geometry  # lines and areas that are named windows
+    glass: shapely.Geometry  # lines and areas that are named windows, or painted as such
     named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
     floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
@@ -168,7 +175,12 @@ def find_walls(
     )
     panels = shapely.union_all([mark.area for mark, color in fills if color in thin])
     panes = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
-    glass = shapely.union_all([shape for mark in panes for shape in (mark.line, mark.area)])
+    blue = [
+        mark.area
+        for mark, color in fills
+        if color not in colors and mark.line.is_empty and is_glass(mark.area, color)
+    ]
+    glass = shapely.union_all([*(shape for mark in panes for shape in (mark.line, mark.area)), *blue])
     called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
     called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
     drawn = Drawn(
@@ -212,7 +224,8 @@ def painted_walls(drawn: Drawn) -> Walls | None:
     glazed, shut = windows(between, thick, drawn.glass, thickness, drawn.widest)
     paned = panes(drawn.lines, thick, thickness, drawn.widest)
     open_ = shapely.union_all([drawn.openings, shapely.intersection(shut, drawn.panels)])
-    walls = shapely.union_all([glazed, paned, shapely.difference(body, open_)])
+    over = painted_glass(drawn.glass, thick, thickness)
+    walls = shapely.union_all([glazed, paned, over, shapely.difference(body, open_)])
     if not are_walls(walls, drawn.lines, gap):
         return None
     return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors)

@@ -4,10 +4,14 @@ import shapely
 
 from pilotage.interpretation.paint import parts_of
 from pilotage.interpretation.pieces import joined, straight
-from pilotage.interpretation.solids import COARSE, HAIR, extent
+from pilotage.interpretation.sheet import Color
+from pilotage.interpretation.solids import COARSE, HAIR, SLENDER, extent, lightness, measured_walls
 
 PANES = 3
 """A window is drawn with so many lines or more from jamb to jamb: faces of its wall, and panes between."""
+
+LIGHT, BLUE = 0.6, 0.15
+"""Glass is painted in a color at least so light, and with so much less red than blue, 0 to 1."""
 
 DEEP = 1.2
 """They lie within so many thicknesses of a wall."""
@@ -53,6 +57,21 @@ def windows(
         for kind in (True, False)
     )
     return shapely.union_all([*glazed, *named]), shapely.union_all(doors)
+
+
+def is_glass(area: shapely.Geometry, color: Color) -> bool:
+    """Tell whether a fill without a line is painted as a window: light blue, long and narrow."""
+    length, thick = measured_walls(area)
+    is_blue = color[2] - color[0] >= BLUE and lightness(color) >= LIGHT
+    return is_blue and bool((length > SLENDER * thick).all())
+
+
+def painted_glass(glass: shapely.Geometry, solid: shapely.Geometry, thickness: float) -> shapely.Geometry:
+    """Return what of windows is painted over a wall, and narrow: it closes the wall again."""
+    reach = shapely.buffer(solid, HAIR * thickness)
+    shapely.prepare(reach)
+    areas = [part for part in parts_of(glass) if part.geom_type == "Polygon" and reach.intersects(part)]
+    return shapely.union_all([area for area in areas if area.area <= DEEP * thickness * area.length / 2.0])
 
 
 def panes(
