@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from svgelements import Matrix
 
 from pilotage.errors import FileError
+from pilotage.interpretation import Role, interpret
 from pilotage.io import open_map, open_world
 from pilotage.io.svg import read_svg_sheet, tree
 from pilotage.maps import Label, SchematicMap
@@ -506,3 +507,26 @@ def test_of_two_elements_with_one_id_the_first_is_used(tmp_path):
     path.write_text(f'<svg viewBox="0 0 99 99">{twins}<use href="#w" stroke="black"/></svg>')
     (mark,) = read_svg_sheet(path).marks
     assert mark.outlines[0].vertices.tolist() == [[0, 0], [9, 0]]
+
+
+@pytest.mark.parametrize(
+    ("body", "roles"),
+    [
+        ('<rect id="toilet" class="room" {0}/>', (Role.WALL,)),
+        ('<rect class="hp-room" id="cabinet" {0}/>', (Role.WALL,)),
+        ('<g id="rooms"><rect id="shower" {0}/></g>', (Role.WALL,)),
+        ('<rect id="bedRoom2" {0}/>', (Role.WALL,)),
+        ('<g id="bath-room"><rect id="toilet" {0}/></g>', (Role.FURNITURE,)),
+        ('<g class="room"><rect {0}/><g id="bed"><rect {1}/></g></g>', (Role.WALL, Role.FURNITURE)),
+        ('<rect id="table" class="room" {0}/>', (Role.FURNITURE,)),
+        ('<rect id="bed-kids-room" {0}/>', (Role.FURNITURE,)),
+    ],
+)
+def test_rooms_are_called_by_things_and_things_by_rooms(tmp_path, body, roles):
+    boxes = [f'x="{x}" y="20" width="30" height="30" fill="none" stroke="#000"' for x in (20, 25)]
+    house = '<path d="M0 0H100V100H0Z" fill="none" stroke="#000"/>'
+    drawing(tmp_path, house + body.format(*boxes))
+
+    meanings = interpret(read_svg_sheet(tmp_path / "drawing.svg")).meanings
+
+    assert roles == tuple(meaning.role for meaning in meanings[1:])

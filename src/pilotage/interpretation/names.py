@@ -77,7 +77,26 @@ VOCABULARY: Mapping[Role, str] = {
 
 EDGES = frozenset(("border", "frame"))
 SPACES = frozenset(("room", "rooms", "raum", "räume", "zimmer", "pièce", "salle", "stanza", "sala", "kamer"))
-"""The border of a room is its wall, that of a sheet is none."""
+"""The border of a room is its wall, that of a sheet is none; nor is a "bed room" a bed."""
+
+ROOMS = frozenset(("rooms", "räume", "zimmer", "pièces", "salles", "stanze", "salas", "kamers"))
+"""A group that is called so holds rooms."""
+
+CALLED = frozenset(
+    (
+        "bed",
+        "cabinet",
+        "lavabo",
+        "lavabos",
+        "sanitaires",
+        "sanitarios",
+        "sanitär",
+        "shower",
+        "toilet",
+        "toilets",
+    )
+)
+"""By these things rooms are called, too: what is classed a room, or stands among rooms, is none of them."""
 
 MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
 
@@ -147,13 +166,32 @@ def told_role(names: Sequence[str], layers: Mapping[str, Role]) -> tuple[Role, s
 
 def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
     """Guess a role by what people call their layers, the innermost name first."""
-    for name in reversed(names):
+    for place, name in reversed(list(enumerate(names))):
         words = name_words(name)
         of_room = not SPACES.isdisjoint(words)
-        for word in words:
-            if (role := meaning_of(word)) is not None and not (of_room and word in EDGES):
+        below, above = names[place + 1 :], names[place - 1 : place]
+        among_rooms = is_room(below[-1:]) if below else not ROOMS.isdisjoint(last_words(above))
+        for word, following in pairwise([*words, ""]):
+            role = meaning_of(word)
+            if role is Role.FURNITURE and (following in SPACES or (among_rooms and word in CALLED)):
+                continue
+            if role is not None and not (of_room and word in EDGES):
                 return role, f"its name is {name!r}"
     return None
+
+
+def is_room(names: Iterable[str]) -> bool:
+    """Tell whether a name says that something is a room.
+
+    >>> [is_room([name]) for name in ("hp-room", "bedRoom2", "room table")]
+    [True, True, False]
+    """
+    return not SPACES.isdisjoint(last_words(names))
+
+
+def last_words(names: Iterable[str]) -> list[str]:
+    """List the last word of each name."""
+    return [words[-1] for name in names if (words := name_words(name))]
 
 
 def meaning_of(word: str) -> Role | None:

@@ -5,6 +5,7 @@ from enum import Enum
 from xml.etree.ElementTree import Element
 
 from pilotage.interpretation import Role, role_named, words_of
+from pilotage.interpretation.names import is_room
 from pilotage.io.svg.style import local_name
 
 NAMING = ("id", "class", "label", "data-name")
@@ -28,8 +29,9 @@ MATERIAL = {**{thing.value: thing for thing in Thing}, "doors": Thing.DOOR, "peo
 
 
 def names_of(element: Element) -> Iterator[str]:
-    """List the names that an element has of its own."""
-    yield from (value for name, value in element.attrib.items() if local_name(name) in NAMING and value)
+    """List the names that an element has of its own; that it is a room comes last, it counts most."""
+    own = [value for name, value in element.attrib.items() if local_name(name) in NAMING and value]
+    yield from sorted(own, key=lambda name: is_room([name]))
 
 
 def role_of(element: Element, inherited: Role) -> Role:
