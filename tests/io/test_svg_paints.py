@@ -12,6 +12,8 @@ SERVERS = """<defs>
 <pattern id="hatch"><path d="M0 0L9 9" stroke="#102030" fill="none"/></pattern>
 <pattern id="boards"><path d="M0 6H12M-1,1 l2-2" stroke="#C0B0A0"/><line y2="6" stroke="#000"/></pattern>
 <linearGradient id="glint"><stop stop-color="#fff"/><stop stop-opacity="0"/></linearGradient>
+<radialGradient id="lamp"><stop stop-color="#fc2" stop-opacity=".6"/>
+<stop offset="1" stop-opacity="0"/></radialGradient>
 <pattern id="grid" width="10" height="10" patternUnits="userSpaceOnUse"><path d="M10 0H0V10" fill="none"
 stroke="#ddd" stroke-width=".5"/></pattern>
 <pattern id="round" href="#round"/><linearGradient id="bare"/>
@@ -55,6 +57,10 @@ def test_one_color_stands_for_a_paint(tmp_path, paint, color):
         assert channels(mark.fill) == color
     (mark,) = marks(tmp_path, f'<path fill="none" stroke="{paint}" d="M0 0H9V9"/>')
     assert channels(mark.pen.color) == color
+
+
+def test_the_light_of_a_lamp_is_no_fill(tmp_path):
+    assert marks(tmp_path, '<circle r="9" fill="url(#lamp)"/>') == ()
 
 
 def test_squared_paper_is_no_fill(tmp_path):

@@ -24,6 +24,9 @@ UNKNOWN = "black"
 SPARSE = 0.08
 """Lines thinner than this share of a pattern's width let the paper through: squared paper, no hatching."""
 
+FAINT = 0.5
+"""A gradient that hides less than this share of what is below draws nothing."""
+
 MAX_HREFS = 8
 """So many gradients or patterns may refer to each other."""
 
@@ -83,7 +86,10 @@ def color_of_server(
 def mean_of_stops(
     chain: Sequence[Element], stops: Sequence[Element], outer: Style, sheet: StyleSheet
 ) -> str | None:
-    """Mix the stops of a gradient; None if it lets through what is below: it is a glint or a shadow."""
+    """Mix the stops of a gradient; None if it lets through what is below: it is a glint or a shadow.
+
+    The light of a lamp lets most through: it is "none".
+    """
     colors = []
     for stop in stops:
         if not is_named(stop, "stop"):
@@ -93,7 +99,11 @@ def mean_of_stops(
         color = Color(shown.paint("fill"))
         opacity = leading_number(declared.get("stop-opacity", "1"), 1.0) * float(color.opacity or 0.0)
         colors.append((color.red or 0, color.green or 0, color.blue or 0, opacity))
-    is_solid = bool(colors) and min(opacity for *_, opacity in colors) >= 1.0
+    if not colors:
+        return None
+    if np.mean([opacity for *_, opacity in colors]) < FAINT:
+        return "none"
+    is_solid = min(opacity for *_, opacity in colors) >= 1.0
     return rgba(np.mean(colors, axis=0).tolist()) if is_solid else None
 
 
