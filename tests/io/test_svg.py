@@ -49,6 +49,17 @@ STROKE = 'stroke="black" fill="none"'
             1,
         ),
         (LINE + '<path aria-label="L T" d="M8 1V3H9ZM10 1H12V2Z"/>', "", ["L T"], 1),  # letters as outlines
+        (f'<rect width="9" height="9" {STROKE}><title>Bath</title></rect>', "", ["Bath"], 1),
+        (f'<g {STROKE}><title>Layer 1</title><rect width="9" height="9"/></g>', "", [], 1),
+        (
+            f'<rect width="9" height="9" {STROKE}><title>A</title></rect><text x="2" y="4">B</text>',
+            "",
+            ["B"],
+            1,
+        ),
+        (f'<rect class="room" id="living_room" width="9" height="9" {STROKE}/>', "", ["living_room"], 1),
+        (f'<g id="rooms"><rect class="room" id="rect304" width="9" height="9" {STROKE}/></g>', "", [], 1),
+        (f'<rect id="kitchen" width="9" height="9" {STROKE}/>', "", [], 1),
     ],
 )
 def test_labels_are_words_or_what_a_shape_is_called(tmp_path, body, attributes, labels, strokes):

@@ -3,11 +3,14 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import numpy as np
+import shapely
 import svgelements
 
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation.names import SPACES, guessed_role, is_room, name_words
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
@@ -15,15 +18,21 @@ from pilotage.io.svg.outlines import FLATNESS
 from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
 from pilotage.io.svg.servers import has_area
-from pilotage.io.svg.style import leading_number, local_name
+from pilotage.io.svg.style import is_named, leading_number, local_name
 from pilotage.io.svg.texts import read_texts
-from pilotage.io.svg.tree import OUTLINED, Drawn
+from pilotage.io.svg.tree import DRAWN, HOLDING, OUTLINED, Drawn
 
 Labeled = Mapping[tuple[int, str], Sequence[Shape]]
 """Shapes by the label that they bear, the number of what bears it first: of letters it is what they spell."""
 
 OPAQUE = 0.5
 """Paint that lets more than this through hides nothing."""
+
+LARGE = 0.1
+"""A room is longer than this share of the drawing's diagonal; what is smaller and has a title is a thing."""
+
+GENERIC = frozenset((*SPACES, *DRAWN, *HOLDING, "rectangle", "vector", "shape", "group", "layer", "floor"))
+"""Words that tell nothing of a room."""
 
 LETTERS = 0.8
 """Outlines of words have at least so many subpaths for each letter; a shape that is called so has fewer."""
@@ -46,7 +55,7 @@ def read_svg_sheet(path: Path) -> Sheet:
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(
         marks,
-        words + tuple(texts_of_labels(labels, letters, words)),
+        (*words, *texts_of_labels(labels, letters, words), *texts_of_rooms(shapes, words)),
         bounds,
         content.background,
         y_down=True,
@@ -152,6 +161,38 @@ def texts_of_labels(found: Labeled, letters: Labeled, written: Sequence[Text]) -
             left <= text.position[0] <= right and -bottom <= text.position[1] <= -top for text in written
         ):
             yield Text(words, middle, 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
+
+
+def texts_of_rooms(shapes: Sequence[Shape], written: Sequence[Text]) -> Iterator[Text]:
+    """Read what shapes are called by their titles, if nothing is written, and by the ids of rooms.
+
+    A shape in which something is written needs no other name; a small one with a title is a thing.
+    """
+    places = shapely.points(np.reshape([text.position for text in written], (-1, 2)))
+    smallest = LARGE * diagonal_of(shapes) if shapes else 0.0
+    for shape in shapes:
+        drawn = shape.drawn
+        is_large = diagonal_of([shape]) >= smallest
+        words = (title_of(drawn.element) if is_large and not written else "") or room_name(drawn)
+        if not words or drawn.outlined:
+            continue
+        rings = [flipped(ring).vertices for ring in flatten(shape.outline, FLATNESS * diagonal_of([shape]))]
+        area = shapely.union_all([shapely.Polygon(ring).buffer(0.0) for ring in rings if len(ring) > 2])
+        if not area.is_empty and not shapely.intersects(area, places).any():
+            x, y = shapely.get_coordinates(shapely.point_on_surface(area))[0].tolist()
+            yield Text(words, (x, y), 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
+
+
+def title_of(element: Element) -> str:
+    """Return what an element is called when one points at it; nothing if it has no title."""
+    return next((" ".join((node.text or "").split()) for node in element if is_named(node, "title")), "")
+
+
+def room_name(drawn: Drawn) -> str:
+    """Return the id of a shape that is classed a room and is no thing; nothing if a program made the id."""
+    name = drawn.element.get("id", "")
+    is_named_room = is_room(drawn.names[-1:]) and guessed_role(drawn.names) is None
+    return name if is_named_room and set(name_words(name)) - GENERIC else ""
 
 
 def source_of(drawn: Drawn) -> str:
