@@ -284,10 +284,15 @@ def test_lines_that_cannot_be_seen_are_no_walls(tmp_path, style):
         "svg .walls line { stroke: url(#gradient) }",
         "* { stroke: black } @media print { line { stroke: none } }",
         "line { stroke: currentColor }",
+        "[data-kind] { stroke: black } line { stroke: none }",
+        "line[data-kind^=inner] { stroke: black }",
+        '.wall[data-kind$="wall"][id*=w] { stroke: black } .wall { stroke: none }',
+        "[data-kind~=wall] { stroke: black } [data-kind=wall], [data-kind|=inner], [fill] { stroke: none }",
     ],
 )
 def test_style_sheets_are_followed(tmp_path, sheet):
-    body = f'<style>{sheet}</style><g class="walls"><line id="w" class="wall" x2="4" y2="4"/></g>'
+    line = '<line id="w" class="wall" data-kind="inner wall" x2="4" y2="4"/>'
+    body = f'<style>{sheet}</style><g class="walls">{line}</g>'
 
     assert [[[0, 0], [4, 4]]] == in_file(drawing(tmp_path, body))
 

@@ -23,7 +23,9 @@ INITIAL: Mapping[str, str] = {
 """The properties that children inherit and that matter here, with the values a document begins with."""
 
 BRACE = re.compile(r"[{};]")
-COMPOUND = re.compile(r"([\w-]+|\*)?((?:[.#][\w-]+)*)")
+ATTRIBUTE = r"\[([\w:-]+)(?:([~|^$*]?=)[\"']?([^\"'\]\s]*)[\"']?)?\]"
+COMPOUND = re.compile(rf"([\w-]+|\*)?((?:[.#][\w-]+|{ATTRIBUTE})*)")
+PART = re.compile(rf"([.#])([\w-]+)|{ATTRIBUTE}")
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)")
 
 CHOICE = re.compile(r"\s*(?:light-dark\(((?:[^(),]|\([^()]*\))+),.*\)|var\([^,()]*,(.*)\))\s*", re.DOTALL)
@@ -110,7 +112,7 @@ class Selector:
 
     @classmethod
     def read(cls, text: str) -> Self | None:
-        """Read one selector; None for what is not understood (pseudo-classes, attributes, siblings)."""
+        """Read one selector; None for what is not understood (pseudo-classes, siblings)."""
         compounds: list[str] = []
         child: list[bool] = []
         direct = False
@@ -128,10 +130,10 @@ class Selector:
 
     @property
     def specificity(self) -> tuple[int, int, int]:
-        """How many ids, classes and tags it names: the more specific rule wins."""
-        text = " ".join(self.compounds)
-        tags = sum(compound[0] not in ".#*" for compound in self.compounds)
-        return text.count("#"), text.count("."), tags
+        """How many ids, classes or attributes, and tags it names: the more specific rule wins."""
+        kinds = [part[1] for compound in self.compounds for part in PART.finditer(compound)]
+        tags = sum(compound[0] not in ".#*[" for compound in self.compounds)
+        return kinds.count("#"), len(kinds) - kinds.count("#"), tags
 
     def matches(self, chain: Sequence[Element]) -> bool:
         """Tell whether it selects the last element of a chain that begins at the root.
@@ -151,16 +153,30 @@ class Selector:
 
 
 def compound_matches(compound: str, element: Element) -> bool:
-    """Tell whether tag, ids and classes of one compound are all the element's."""
+    """Tell whether tag, ids, classes and attributes of one compound are all the element's."""
     match = COMPOUND.fullmatch(compound)
     assert match is not None, "Selector.read lets no other through"
     if match[1] not in (None, "*", local_name(element.tag)):
         return False
-    classes = element.get("class", "").split()
-    return all(
-        name[1:] == element.get("id") if name[0] == "#" else name[1:] in classes
-        for name in re.findall(r"[.#][\w-]+", match[2])
-    )
+    return all(part_matches(part, element) for part in PART.finditer(match[2]))
+
+
+def part_matches(part: re.Match[str], element: Element) -> bool:
+    """Tell whether an id, a class or an attribute of a compound is the element's."""
+    kind, name, attribute, how, wanted = part.groups()
+    if kind is not None:
+        return name == element.get("id") if kind == "#" else name in element.get("class", "").split()
+    value = next((value for key, value in element.attrib.items() if local_name(key) == attribute), None)
+    if value is None or how is None:
+        return value is not None
+    return {
+        "=": value == wanted,
+        "~=": wanted in value.split(),
+        "|=": value == wanted or value.startswith(f"{wanted}-"),
+        "^=": bool(wanted) and value.startswith(wanted),
+        "$=": bool(wanted) and value.endswith(wanted),
+        "*=": bool(wanted) and wanted in value,
+    }[how]
 
 
 @dataclass(frozen=True, slots=True)
