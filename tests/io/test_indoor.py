@@ -240,3 +240,45 @@ def test_the_width_of_a_door_may_be_in_centimetres(tmp_path):
     sheet = read(tmp_path, feature(BOX, indoor="room"), door)
 
     assert [pytest.approx(0.9, abs=0.01)] == [opening.length for opening in sheet.openings]
+
+
+@pytest.mark.parametrize("key", ["objectType", "type", "USE_TYPE", "feature_type"])
+def test_maps_of_no_standard_are_read_by_what_they_call_things(tmp_path, key):
+    rooms = [feature(BOX, NAME="a"), feature(NEXT, Name="b", FLOOR="1")]
+    door = feature([(4, 1), (4, 2)], "LineString")
+    for made, called in zip([*rooms, door], ["Room", "Laboratory", "Interior door"], strict=True):
+        made["properties"][key] = called
+
+    assert joined(read(tmp_path, *rooms, door)) == {frozenset("ab")}
+
+
+def test_imdf_may_tell_its_types_among_the_properties(tmp_path):
+    flat = [feature(BOX, name="a"), feature(NEXT, name="b"), feature([(4, 1), (4, 2)], "LineString")]
+    for made, told in zip(flat, ["unit", "unit", "opening"], strict=True):
+        made["properties"]["feature_type"] = told
+
+    assert joined(read(tmp_path, *flat)) == {frozenset("ab")}
+
+
+def test_a_drawing_that_was_turned_into_a_map_keeps_its_layers_and_words(tmp_path):
+    sheet = read(
+        tmp_path,
+        feature(BOX, "LineString", Layer="A-FURN", Text=None),
+        feature([(2, 1)], "Point", Layer="A-TEXT", Text="Kitchen"),
+    )
+
+    assert [("A-FURN",)] == [mark.names for mark in sheet.marks]
+    assert ["Kitchen"] == [text.text for text in sheet.texts]
+
+
+def test_the_name_of_a_building_names_no_room(tmp_path):
+    sheet = read(tmp_path, feature(BOX, building="school", name="Goethe"), feature(BOX, indoor="room"))
+
+    assert not sheet.texts
+
+
+def test_walls_and_furniture_name_no_room(tmp_path):
+    wall = feature([(0, 0), (4, 0)], "LineString", type="wall", name="wall_1")
+    sheet = read(tmp_path, feature(BOX, type="room", name="a"), wall, feature(NEXT, type="table", name="t1"))
+
+    assert ["a"] == [text.text for text in sheet.texts]

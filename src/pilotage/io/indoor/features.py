@@ -10,6 +10,9 @@ from enum import Enum
 
 import shapely
 
+from pilotage.interpretation.names import SPACES, meaning_of, name_words
+from pilotage.interpretation.sheet import Role
+
 Tags = Mapping[str, str]
 
 
@@ -39,6 +42,7 @@ class Feature:
     name: str = ""
     width: float | None = None  # of an opening [m]
     source: str = ""
+    layer: str = ""  # of the drawing that a map was made of
 
 
 ROOMS = {
@@ -93,6 +97,27 @@ OTHERS = {
 }
 """Tags of OSM that tell what a feature is where `indoor` does not."""
 
+TYPES = ("feature_type", "objecttype", "object_type", "type", "kind", "class", "use_type", "category")
+"""Where maps that keep to no standard say what a feature is, in words."""
+
+CALLED = {
+    **dict.fromkeys(SPACES, Kind.ROOM),
+    **dict.fromkeys(("corridor", "hallway", "walkway", "flur", "gang", "couloir", "pasillo"), Kind.CORRIDOR),
+    **dict.fromkeys(("building", "envelope", "gebäude"), Kind.BUILDING),
+    **dict.fromkeys(("elevator", "lift", "aufzug", "ascenseur", "ascensor"), Kind.ELEVATOR),
+    **dict.fromkeys(("opening", "entrance"), Kind.OPENING),
+    **dict.fromkeys(("column", "pillar"), Kind.COLUMN),
+}
+"""What these words call a feature, beside those for walls, doors, stairs and furniture."""
+
+ROLES = {
+    Role.WALL: Kind.WALL,
+    Role.WINDOW: Kind.WALL,  # closes it
+    Role.DOOR: Kind.OPENING,
+    Role.STAIRS: Kind.STAIRS,
+    Role.FURNITURE: Kind.FURNITURE,
+}
+
 LEVEL_RANGE = re.compile(r"(-?\d+)\s*-\s*(-?\d+)")
 MOST_LEVELS = 200
 """Levels of a range at most."""
@@ -112,7 +137,22 @@ def kind_of(tags: Tags) -> Kind | None:
         return Kind.STAIRS
     if indoor is not None:
         return ROOMS.get(tags.get("room", ""), indoor) if indoor is Kind.ROOM else indoor
-    return next((kind for (key, value), kind in OTHERS.items() if matches(tags, key, value)), Kind.OTHER)
+    found = next((kind for (key, value), kind in OTHERS.items() if matches(tags, key, value)), None)
+    return found or next(filter(None, (kind_called(tags.get(key, "")) for key in TYPES)), Kind.OTHER)
+
+
+def kind_called(words: str) -> Kind | None:
+    """Tell what a feature is from what a map calls it, by the last word that says something.
+
+    >>> [kind_called(words) for words in ("Interior Wall", "door", "building_envelope", "Laboratory")]
+    [<Kind.WALL: 'wall'>, <Kind.OPENING: 'door'>, <Kind.BUILDING: 'building'>, None]
+    """
+    for word in reversed(name_words(words)):
+        role = meaning_of(word)
+        kind = CALLED.get(word) or (None if role is None else ROLES.get(role))
+        if kind is not None:
+            return kind
+    return None
 
 
 def matches(tags: Tags, key: str, value: str) -> bool:

@@ -41,6 +41,7 @@ ROOMS = (Kind.ROOM, Kind.CORRIDOR)
 STEPPED = (Kind.STAIRS, Kind.ELEVATOR)
 WALLED = (Kind.ROOM, Kind.CORRIDOR, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
 OPEN = (Kind.CORRIDOR, Kind.AREA)
+NAMELESS = (Kind.OPENING, Kind.WALL, Kind.COLUMN, Kind.FURNITURE, Kind.BUILDING)
 SPACES = (Kind.ROOM, Kind.CORRIDOR, Kind.AREA, Kind.STAIRS, Kind.ELEVATOR, Kind.WALL)
 
 
@@ -163,7 +164,7 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is
 
     Stairs and lifts with a door are rooms: all that is drawn of them are their walls, open at the door.
     """
-    names = (feature.kind.value,)
+    names = (feature.kind.value, feature.layer)
     group = (builder.new_group(),)
     is_solid = feature.kind is Kind.COLUMN
     if feature.kind in (Kind.COLUMN, Kind.FURNITURE, Kind.OTHER, *STEPPED) and not is_room:
@@ -177,7 +178,7 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is
                 groups=group,
                 source=feature.source,
             )
-    if feature.name and feature.kind is not Kind.OPENING and not shape.is_empty:
+    if feature.name and feature.kind not in NAMELESS and not shape.is_empty:
         point = shapely.point_on_surface(shape)
         builder.add_text(
             Text(feature.name, (point.x, point.y), CAPITAL, names=names, groups=group, source=feature.source)

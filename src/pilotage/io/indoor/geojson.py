@@ -4,7 +4,7 @@ import io
 import json
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,10 +13,18 @@ import shapely
 from pilotage.errors import FileError
 from pilotage.interpretation.sheet import Sheet
 from pilotage.io.files import check_regular, read_bytes
-from pilotage.io.indoor.features import Feature, Kind, kind_of, levels_of
+from pilotage.io.indoor.features import Feature, Kind, Tags, kind_of, levels_of
 from pilotage.io.indoor.floor import floor_sheet
 from pilotage.io.json_files import LARGEST, Json, objects, read_json, words
 from pilotage.io.scales import length_in_metres
+
+NAMES = ("name", "label", "room_name", "title", "text", "ref", "room_number", "room_no", "number")
+"""Where the name of a place is told, the likeliest first."""
+
+LEVELS = ("level", "floor", "storey", "etage")
+"""Where levels are listed; ids of levels, `LEVEL_IDS`, are no lists."""
+
+LEVEL_IDS = ("level_id", "floor_id")
 
 IMDF_FILES = ("unit", "opening", "fixture", "kiosk", "level")
 """Files of an IMDF archive that draw something, or name the levels."""
@@ -89,9 +97,19 @@ def collections_sheet(collections: list[Json], path: Path, level: str | None) ->
         feature = read_feature(raw, k)
         if feature is not None:
             features.append(replace(feature, levels=tuple(names.get(name, name) for name in feature.levels)))
-    if any(feature.kind is not Kind.OTHER for feature in features):
+    kinds = {feature.kind for feature in features}
+    if kinds - {Kind.OTHER, Kind.BUILDING} and not any("indoor" in properties_of(raw) for raw in found):
+        features = [as_room(feature) for feature in features]
+    if kinds - {Kind.OTHER}:
         features = [feature for feature in features if feature.kind is not Kind.OTHER]
     return floor_sheet(features, path, level)
+
+
+def as_room(feature: Feature) -> Feature:
+    """Take an area with a name for a room: maps call rooms by their use, in words without number."""
+    is_area = feature.shape.geom_type in ("Polygon", "MultiPolygon")
+    is_room = feature.kind is Kind.OTHER and is_area and feature.name
+    return replace(feature, kind=Kind.ROOM) if is_room else feature
 
 
 def raw_features(collection: Json) -> list[Json]:
@@ -110,33 +128,41 @@ def imdf_levels(found: list[Json]) -> dict[str, str]:
     levels = [raw for raw in found if raw.get("feature_type") == "level"]
     names = {}
     for raw in levels:
-        properties = raw.get("properties")
-        if isinstance(properties, dict):
-            name = text_of(properties.get("short_name")) or text_of(properties.get("name"))
-            names[words(raw.get("id"))] = name or str(properties.get("ordinal", ""))
+        properties = properties_of(raw)
+        name = text_of(properties.get("short_name")) or text_of(properties.get("name"))
+        names[words(raw.get("id"))] = name or str(properties.get("ordinal", ""))
     return names
+
+
+def properties_of(raw: Json) -> Json:
+    """Return what a feature says of itself."""
+    properties = raw.get("properties")
+    return properties if isinstance(properties, dict) else {}
 
 
 def read_feature(raw: Json, index: int) -> Feature | None:
     """Read one feature; None if it draws nothing."""
-    properties = raw.get("properties")
-    properties = properties if isinstance(properties, dict) else {}
-    tags = {key: text_of(value) for key, value in properties.items()}
-    tags["feature_type"] = words(raw.get("feature_type"))
+    said = {key.lower(): text for key, value in properties_of(raw).items() if (text := text_of(value))}
+    tags = said | ({"feature_type": told} if (told := words(raw.get("feature_type"))) else {})
     kind = kind_of(tags)
     shape = read_shape(raw.get("geometry"))
     if kind is None or shape is None:
         return None
-    levels = levels_of(tags.get("level") or "") or tuple(filter(None, [tags.get("level_id", "")]))
-    name = next(filter(None, (tags.get(key, "") for key in ("name", "label", "room_name", "ref"))), "")
+    levels = levels_of(first(tags, LEVELS)) or tuple(filter(None, [first(tags, LEVEL_IDS)]))
     return Feature(
         shape,
         kind,
         levels,
-        name,
+        first(tags, NAMES),
         width=length_in_metres(tags.get("width", "")),
         source=f"feature {raw.get('id', index + 1)}",
+        layer=tags.get("layer", ""),
     )
+
+
+def first(tags: Tags, keys: Sequence[str]) -> str:
+    """Return the first of some tags that is there."""
+    return next((tags[key] for key in keys if key in tags), "")
 
 
 def text_of(value: object) -> str:
