@@ -282,3 +282,27 @@ def test_walls_and_furniture_name_no_room(tmp_path):
     sheet = read(tmp_path, feature(BOX, type="room", name="a"), wall, feature(NEXT, type="table", name="t1"))
 
     assert ["a"] == [text.text for text in sheet.texts]
+
+
+def test_what_lies_between_rooms_that_are_drawn_by_their_inner_faces_is_a_wall(tmp_path):
+    rooms = (feature(BOX, indoor="room", name="a"), feature(moved(NEXT, 0.2), indoor="room", name="b"))
+    sheet = read(tmp_path, *rooms, feature([(4, 1.5)], "Point", door="yes"))
+
+    assert ["a", "b"] == sorted(text.text for text in sheet.texts)
+    assert joined(sheet) == {frozenset("ab")}
+
+
+def box(left, bottom, right, top):
+    return [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
+
+
+def test_thin_walls_with_doors_stand_beside_a_thick_outer_wall(tmp_path):
+    rooms = {"a": (0, 0, 5, 4), "b": (5, 0, 10, 4), "hall": (0, 4, 10, 6)}
+    sheet = read(
+        tmp_path,
+        feature(box(-0.2, -0.2, 10.2, 6.2), building="yes"),
+        *(feature(box(*corners), indoor="room", name=name) for name, corners in rooms.items()),
+        *(feature([(x, 4)], "Point", door="yes") for x in (2.5, 7.5)),
+    )
+
+    assert joined(sheet) == {frozenset(("a", "hall")), frozenset(("b", "hall"))}

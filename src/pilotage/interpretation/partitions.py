@@ -6,7 +6,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.interpretation.doors import Door
 from pilotage.interpretation.paint import NOTHING, parts_of
 from pilotage.interpretation.pieces import on_grid, straight
 
@@ -24,14 +23,13 @@ TOUCHING = 0.05
 
 
 def find_partitions(
-    lines: shapely.Geometry, solid: shapely.Geometry, doors: Sequence[Door], width: float
+    lines: shapely.Geometry, solid: shapely.Geometry, closing: Sequence[shapely.LineString], width: float
 ) -> shapely.Geometry:
-    """Find lines outside solids that part one room from the next."""
+    """Find lines outside solids that part one room from the next; doors are `closing`, from jamb to jamb."""
     body = shapely.make_valid(shapely.buffer(solid, TOUCHING * width, join_style="mitre"))
     loose = outside(lines, body)
     if loose.is_empty:
         return NOTHING
-    closing = [shapely.LineString([door.hinge, door.latch]) for door in doors]
     grain = TOUCHING * width / 4.0
     pieces = on_grid(straight(np.array([loose, shapely.boundary(body), *closing])), grain)
     noded = shapely.union_all(shapely.multilinestrings(shapely.linestrings(pieces)), grid_size=grain)

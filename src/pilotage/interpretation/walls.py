@@ -102,6 +102,7 @@ class Drawn:
     named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
     floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
+    told: Sequence[Polyline]  # doors that the file itself tells
     diagonal: float
 
     @cached_property
@@ -129,6 +130,12 @@ class Drawn:
         gaps = [usual * self.diagonal / 2.0**halved for halved in range(HALVED + 1)]
         return next((gap for gap in gaps[:-1] if enclosed(self.solid, self.lines, gap) > 0.0), gaps[-1])
 
+    @cached_property
+    def closing(self) -> list[shapely.LineString]:
+        """All doors, from jamb to jamb."""
+        told = [shapely.LineString(door.vertices) for door in self.told]
+        return [shapely.LineString([door.hinge, door.latch]) for door in self.doors] + told
+
     @property
     def widest(self) -> float:
         """Width of the widest doors."""
@@ -146,7 +153,7 @@ class Drawn:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
         edges = floor_edges(self.floors, walls, thickness, gap)
         lines = shapely.multilinestrings(np.concatenate([parts_of(self.lines), parts_of(edges)]))
-        parting = find_partitions(lines, walls, self.doors, self.door_width or gap)
+        parting = find_partitions(lines, walls, self.closing, self.door_width or gap)
         return shapely.union(parting, edges)
 
 
@@ -192,6 +199,7 @@ def find_walls(
         called,
         floors,
         doors,
+        sheet.openings,
         diagonal,
     )
     ways = (
@@ -279,7 +287,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
         enclosed(NOTHING, enclosing, wide * gap) >= share * everything for enclosing, wide, share in ways
     ):
         return None
-    parting = find_partitions(others, body, drawn.doors, width)
+    parting = find_partitions(others, body, drawn.closing, width)
     widest = max(WIDEST * width, gap)
     within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
     shapely.prepare(within)

@@ -34,6 +34,9 @@ GRID = 0.001
 WALL_GRID = 0.02
 """The walls of neighbors that are no farther apart than this are one wall [m]."""
 
+THICKEST = 0.5
+"""What lies between rooms that are no farther apart than this is a wall [m]."""
+
 CAPITAL = 0.3
 """Height of a room's name [m]."""
 
@@ -132,7 +135,11 @@ def draw_walls(
         for jambs in shapely.get_parts(shapely.line_merge(shapely.intersection(near, opening))):
             if jambs.geom_type == "LineString":
                 builder.add_opening(outline_through(shapely.get_coordinates(jambs)[[0, -1]]))
-    drawn = shapely.difference(drawn, shapely.union_all(openings))
+    doors = shapely.union_all(openings)
+    if grid is not None:
+        for part in parts_of(shapely.difference(between(spaces, grid), doors)):
+            builder.add_mark(outlines_of_area(part), pen=None, fill=BLACK, names=("wall",), source="walls")
+    drawn = shapely.difference(drawn, doors)
     for part in shapely.get_parts(shapely.line_merge(drawn)):
         if part.geom_type == "LineString" and part.length > 0.0:
             builder.add_mark(
@@ -141,6 +148,16 @@ def draw_walls(
                 names=("wall",),
                 source="walls",
             )
+
+
+def between(spaces: Sequence[shapely.Geometry], grid: float) -> shapely.Geometry:
+    """Return what lies between rooms that are drawn by their inner faces: walls thicker than `grid`."""
+    whole = shapely.union_all([space for space in spaces if space.geom_type in ("Polygon", "MultiPolygon")])
+    near = shapely.buffer(whole, THICKEST / 2.0, join_style="mitre")
+    walls = shapely.difference(shapely.buffer(near, -THICKEST / 2.0, join_style="mitre"), whole)
+    return shapely.buffer(
+        shapely.buffer(walls, -grid / 2.0, join_style="mitre"), grid / 2.0, join_style="mitre"
+    )
 
 
 def shared(lines: Sequence[shapely.Geometry]) -> shapely.Geometry:
