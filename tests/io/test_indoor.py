@@ -306,3 +306,20 @@ def test_thin_walls_with_doors_stand_beside_a_thick_outer_wall(tmp_path):
     )
 
     assert joined(sheet) == {frozenset(("a", "hall")), frozenset(("b", "hall"))}
+
+
+def test_passages_of_an_area_graph_are_doors(tmp_path):
+    def room(name):
+        return f'<tag k="osmAG:type" v="area"/><tag k="indoor" v="room"/><tag k="name" v="{name}"/>'
+
+    passage = '<tag k="osmAG:type" v="passage"/><tag k="name" v="p_1"/>'
+    oven = '<tag k="osmAG:furniture_type" v="oven"/><tag k="osmAG:furniture_name" v="oven_1"/>'
+    corners = [(0, 0), (4, 0), (4, 1), (4, 2), (4, 3), (0, 3), (8, 0), (8, 3), (1, 1), (2, 1), (2, 2)]
+    nodes = [(k, x, y, "") for k, (x, y) in enumerate(corners)]
+    a, b = (0, 1, 2, 3, 4, 5, 0), (1, 6, 7, 4, 3, 2, 1)
+    path = tmp_path / "plan.osm"
+    path.write_text(osm(nodes, [(a, room("a")), (b, room("b")), ((2, 3), passage), ((8, 9, 10, 8), oven)]))
+    sheet = read_osm(path)
+
+    assert joined(sheet) == {frozenset("ab")}
+    assert ["furniture"] == [mark.names[0] for mark in sheet.marks if mark.names != ("wall",)]

@@ -94,8 +94,11 @@ OTHERS = {
     ("highway", "steps"): Kind.STAIRS,
     ("barrier", "wall"): Kind.WALL,
     ("building", "*"): Kind.BUILDING,
+    ("osmAG:type", "area"): Kind.ROOM,
+    ("osmAG:type", "passage"): Kind.OPENING,
+    ("osmAG:furniture_type", "*"): Kind.FURNITURE,
 }
-"""Tags of OSM that tell what a feature is where `indoor` does not."""
+"""Tags of OSM and of osmAG, area graphs for robots, that tell what a feature is where `indoor` does not."""
 
 TYPES = ("feature_type", "objecttype", "object_type", "type", "kind", "class", "use_type", "category")
 """Where maps that keep to no standard say what a feature is, in words."""
