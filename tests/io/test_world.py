@@ -42,6 +42,13 @@ def test_a_map_is_as_large_as_it_says_and_lies_where_it_says(tmp_path):
     )
 
 
+@pytest.mark.parametrize("threshold", [0.196, 0.25])
+def test_cells_that_no_one_has_seen_are_solid_whatever_the_threshold(tmp_path, threshold):
+    world = open_world(saved_map(tmp_path, rooms(), free_thresh=threshold))
+
+    assert 8 == len(world.segments)
+
+
 @pytest.mark.parametrize(
     ("entries", "rule"),
     [

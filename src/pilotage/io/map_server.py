@@ -15,6 +15,9 @@ from pilotage.maps import SchematicMap
 FREE_BELOW = 0.196
 """Occupancy below which map_server takes a cell for free, if the file does not say."""
 
+UNKNOWN, HALF = 205.0 / 255.0, 0.5 / 255.0
+"""The shade of cells that no one has seen, and half of one; by the threshold of ROS 2 they would be free."""
+
 
 def read_map_server(path: Path) -> SchematicMap:
     """Read a map as a drawing in cells, y up and so below 0: the contours of free space.
@@ -51,8 +54,10 @@ def free_cells(entries: dict[str, str], path: Path) -> Mask:
     free_below = number(entries, "free_thresh", path, FREE_BELOW)
     negated = bool(number(entries, "negate", path, 0.0))
     gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
-    occupied = gray if negated else 1.0 - gray
-    return np.asarray(occupied < free_below)
+    free = (gray if negated else 1.0 - gray) < free_below
+    if not negated and (gray > UNKNOWN + HALF).any():  # else it is what free cells were painted in
+        free &= np.abs(gray - UNKNOWN) > HALF
+    return np.asarray(free)
 
 
 def number(entries: dict[str, str], name: str, path: Path, otherwise: float | None = None) -> float:
