@@ -23,6 +23,14 @@ def test_plain_strokes_stay_as_they_were_drawn():
     assert are_joined(WITH_GAP)
 
 
+@pytest.mark.parametrize("name", ["arrow", "Hilfslinien"])
+def test_arrows_and_guides_are_no_walls(name):
+    across = replace(stroke((50, 20), (50, 60)), names=(name,))
+
+    assert are_joined((*WITH_GAP, across))
+    assert not are_joined((*WITH_GAP, replace(across, names=("partition",))))
+
+
 def test_a_leaf_with_a_quarter_arc_is_a_door():
     wall, leaf = stroke((50, 0), (50, 80)), stroke((50, 30), (62, 30))
 

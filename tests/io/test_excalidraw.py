@@ -65,6 +65,14 @@ def test_lines_may_be_curved_dashed_and_filled(tmp_path):
     assert pen.pen.width > plain.pen.width
 
 
+def test_an_arrow_without_a_head_is_a_line(tmp_path):
+    way = [[0, 0], [30, 0]]
+    heads = ({"endArrowhead": None}, {"endArrowhead": "triangle"}, {"startArrowhead": "bar"})
+    sheet = read(tmp_path, *(element("arrow", points=way, **head) for head in heads))
+
+    assert [(), ("arrow",), ("arrow",)] == [mark.names for mark in sheet.marks]
+
+
 def test_words_are_read_line_by_line(tmp_path):
     text = element("text", text="Bed\nroom", fontSize=10)
     bed, room = read(tmp_path, element("rectangle"), text).texts

@@ -54,7 +54,8 @@ VOCABULARY: Mapping[Role, str] = {
     " cabinets cupboard cupboards desks chairs tables beds armchair armchairs stool stools toilets sinks"
     " basin basins washbasin tub stove oven fridge refrigerator dishwasher countertop countertops worktop"
     " lamp lamps lights lighting sockets outlets switches radiator radiators people cars vehicles"
-    " einrichtung inventar regal regale schrank schränke schraenke tisch tische stuhl stühle stuehle bett"
+    " einrichtung möblierung moeblierung inventar regal regale schrank schränke schraenke tisch tische stuhl"
+    " stühle stuehle bett"
     " betten bänke baenke sessel waschbecken badewanne spüle herd leuchten steckdosen heizkörper"
     " canapé canape canapés banc bancs étagère étagères etagere etageres armoire armoires lits fauteuil"
     " fauteuils chaise chaises lavabo lavabos baignoire sofá sofás bancos estante estantes"
@@ -71,7 +72,8 @@ VOCABULARY: Mapping[Role, str] = {
     " landscape landscaping contouring vegetation planting measurement measurements maße medidas misure"
     " maten beam beams joist joists träger traeger balken unterzug unterzüge unterzuege poutre poutres"
     " viga vigas trave travi balk overhang ceiling clng decke plafond soffitto hvac ducts elec elektro"
-    " compass scalebar watermark logo",
+    " compass scalebar watermark logo arrow arrows pfeil pfeile flèche flèches freccia frecce flecha flechas"
+    " leader mleader multileader hilfslinie hilfslinien hilfskonstruktion guide guides guideline guidelines",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 

@@ -69,7 +69,10 @@ def read_element(
     told = element.get("customData")
     role = words(told.get("role")) if isinstance(told, dict) else ""  # as the drawing table writes it
     role = "ignore" if role == "measure" else role
-    names = (frames.get(words(element.get("frameId")), ""), "arrow" if kind == "arrow" else "", role)
+    has_head = kind == "arrow" and any(
+        element.get(end, usual) for end, usual in (("startArrowhead", None), ("endArrowhead", "arrow"))
+    )
+    names = (frames.get(words(element.get("frameId")), ""), "arrow" if has_head else "", role)
     source = f"{kind} {words(element.get('id'))}".strip()
     if kind == "text":
         if opacity > 0.0:
