@@ -293,3 +293,15 @@ def test_a_painted_mark_without_a_line_may_be_told_to_be_a_wall_where_walls_are_
 
     assert [70.0, 30.0] in [ring.vertices.min(axis=0).tolist() for ring in sketch.solids]
     assert any((line.vertices[:, 0] == 50.0).all() for line in sketch.strokes)
+
+
+def test_words_on_layers_of_dimensions_and_furniture_name_no_room():
+    office = Text("Office", (25, 40), 3)
+    others = (Text("4.52", (25, 60), 3, names=("Bemaßung",)), Text("Desk", (75, 40), 3, names=("A-FURN",)))
+
+    def names(*texts):
+        return {label.text for label in interpret(Sheet(WITH_GAP, texts)).sketch.labels}
+
+    assert {"Office"} == names(office, *others)
+    assert {"4.52", "Desk"} == names(*others)  # nothing is written elsewhere
+    assert {"Office", "Cabinet"} == names(office, Text("Cabinet", (75, 40), 3, names=("7-Cabinet",)))

@@ -166,6 +166,14 @@ def test_dimensions_bear_their_kind_as_a_name(document, tmp_path):
     assert "DIMENSION" in sheet.texts[0].names
 
 
+def test_the_kind_of_a_dimension_says_more_than_its_layer(document, tmp_path):
+    attributes = {"layer": "A-ANNO-DIMS"}
+    document.modelspace().add_linear_dim(base=(0, 2), p1=(0, 0), p2=(3, 0), dxfattribs=attributes).render()
+    (text,) = read(document, tmp_path).texts
+
+    assert "DIMENSION" == text.names[-1]
+
+
 def test_paper_is_read_where_model_space_is_empty(document, tmp_path):
     document.layouts.get("Layout1").add_line((0, 0), (1, 0))
     assert len(read(document, tmp_path).marks) == 1

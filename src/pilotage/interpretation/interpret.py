@@ -13,18 +13,21 @@ from pilotage.interpretation.dashed import opened_dashed
 from pilotage.interpretation.floors import is_floor
 from pilotage.interpretation.halves import opened_halves
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
-from pilotage.interpretation.names import told_role
+from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.origin import moved_sheet, moved_sketch, origin_of
 from pilotage.interpretation.paint import Seen, polylines_of
 from pilotage.interpretation.painted import find_painted_rooms, outlined
 from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
-from pilotage.interpretation.view import View, view_of
+from pilotage.interpretation.view import View, common_names, view_of
 from pilotage.interpretation.walls import Walls, opened_shut, rings_of
-from pilotage.interpretation.words import find_names, role_of_words
+from pilotage.interpretation.words import find_names, is_measure, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
+
+NAMELESS = (Role.DOOR, Role.WINDOW, Role.FURNITURE, Role.IGNORE)
+"""What is written on layers of these names no place."""
 
 GRAIN = 0.0005
 """A fill of less area than the square of this share of the drawing's diagonal cannot be seen."""
@@ -65,17 +68,55 @@ def interpret_near(sheet: Sheet, layers: Mapping[str, Role]) -> Interpretation:
     if painted:
         view = view_of(outlined(sheet, painted), layers)
     parts = take_apart(view)
-    text_roles = [
-        told_role(text.names, layers)
-        or ((Role.IGNORE, "the north of a compass") if number in parts.written else role_of_words(text.text))
-        for number, text in enumerate(sheet.texts)
-    ]
+    text_roles = roles_of_texts(view, parts, layers)
     return Interpretation(
         sketch_of(view, parts, text_roles),
         sheet,
         find_meanings(sheet, evidence_of(view, parts, painted)),
         tuple(Meaning(*role) for role in text_roles),
     )
+
+
+def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list[tuple[Role, str]]:
+    """Tell for each text whether it names a place, and why.
+
+    What is written on layers of furniture, doors or dimensions names none, if anything is written elsewhere.
+    """
+    texts = view.sheet.texts
+    told = [told_role(text.names, layers) for text in texts]
+    plain = [
+        (Role.IGNORE, "the north of a compass") if number in parts.written else role_of_words(text.text)
+        for number, text in enumerate(texts)
+    ]
+    own = common_names(view.sheet, view.drawn)
+    of_marks = {name for mark in view.sheet.marks for name in mark.names} - own
+    called = [
+        guessed_role(
+            [
+                name
+                for name in text.names
+                if name in of_marks or (name not in own and not is_of_words(name, text.text))
+            ]
+        )
+        for text in texts
+    ]
+    called = [role if role is not None and role[0] in NAMELESS else None for role in called]
+    if not any(
+        by_name is None and by_words[0] is Role.LABEL and not is_measure(text.text)
+        for text, by_name, by_words in zip(texts, called, plain, strict=True)
+    ):
+        called = [None] * len(texts)
+    return [a or b or c for a, b, c in zip(told, called, plain, strict=True)]
+
+
+def is_of_words(name: str, words: str) -> bool:
+    """Tell whether a program called words by what they say.
+
+    >>> is_of_words("201-Cabinet", "201"), is_of_words("Open-Space---Com", "Open Space - Com")
+    (True, True)
+    """
+    spoken, said = ("".join(filter(str.isalnum, text.casefold())) for text in (name, words))
+    return said in spoken
 
 
 def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) -> SchematicMap:

@@ -91,14 +91,18 @@ def is_furniture(named: tuple[Role, str] | None) -> bool:
 
 
 def names_inside(sheet: Sheet, drawn: Sequence[int]) -> dict[int, list[str]]:
-    """List the names of marks but for those that all of them bear: such a name is the drawing's own.
+    """List the names of marks but for those that all of them bear."""
+    common = common_names(sheet, drawn)
+    return {number: [name for name in sheet.marks[number].names if name not in common] for number in drawn}
+
+
+def common_names(sheet: Sheet, drawn: Sequence[int]) -> set[str]:
+    """Return the names that all marks bear and that would make them no walls: they are the drawing's own.
 
     Programs name what holds a whole drawing "Frame 1" or "axes_1".
     """
-    names = {number: sheet.marks[number].names for number in drawn}
-    common = set.intersection(*map(set, names.values())) if names else set()
-    common = {name for name in common if (role := guessed_role([name])) and role[0] is not Role.WALL}
-    return {number: [name for name in own if name not in common] for number, own in names.items()}
+    common = set.intersection(*(set(sheet.marks[number].names) for number in drawn)) if drawn else set()
+    return {name for name in common if (role := guessed_role([name])) and role[0] is not Role.WALL}
 
 
 def diagonal_of(sheet: Sheet, drawn: Sequence[int]) -> float:

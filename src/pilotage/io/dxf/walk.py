@@ -53,6 +53,7 @@ class Place:
 
     look: Look | None = None
     names: tuple[str, ...] = ()
+    kind: tuple[str, ...] = ()  # of what an entity is a part, as "DIMENSION": says more than its layer
     groups: tuple[int, ...] = ()
     source: str = ""
     depth: int = 0
@@ -98,7 +99,8 @@ class Walk:
         if self.looks.frozen(look.layer) or (kind != "INSERT" and self.looks.hidden(look.layer)):
             self.builder.leave_out(HIDDEN)
             return
-        here = replace(place, names=(*place.names, look.layer), source=place.source or origin(entity, look))
+        names = (*place.names, look.layer, *place.kind)
+        here = replace(place, names=names, kind=(), source=place.source or origin(entity, look))
         if isinstance(entity, Insert):
             self.read_insert(entity, look, here)
         elif isinstance(entity, MText | DxfText):
@@ -160,7 +162,7 @@ class Walk:
         inner = replace(
             place,
             look=look,
-            names=(*place.names, entity.dxftype()),
+            kind=(entity.dxftype(),),
             groups=(*place.groups, self.builder.new_group()),
             depth=place.depth + 1,
         )
