@@ -6,7 +6,9 @@ import zlib
 import pytest
 
 from pilotage.errors import FileError
+from pilotage.interpretation import interpret
 from pilotage.io.drawio import read_drawio
+from pilotage.maps import DecompositionSettings, decompose
 from shared_data import needs_plans, plan
 
 
@@ -192,3 +194,21 @@ def test_a_property_class_names_a_shape_and_what_it_holds(tmp_path):
     shelf = f'<object class="furniture" label="" id="desk">{cell}</object>'
     sheet = read(tmp_path, mxfile(("Ground", model(shelf, inner, vertex("c")))))
     assert [mark.names for mark in sheet.marks] == [("furniture",), ("furniture",), ()]
+
+
+def test_a_label_that_says_what_a_shape_is_names_it_and_its_words(tmp_path):
+    labels = ("Coffee&lt;br&gt;table", "Door 2", "Bed room", "Toilet", "Bed 2")
+    sheet = read(tmp_path, model(*(vertex(str(k), value=label) for k, label in enumerate(labels))))
+
+    assert [("Coffee table",), ("Door 2",), (), (), ()] == [mark.names for mark in sheet.marks]
+    assert ("Coffee table",) == sheet.texts[0].names
+
+
+def test_boxes_with_labels_of_doors_lie_over_the_walls_of_rooms_and_open_them(tmp_path):
+    boxes = {"Kitchen": (0, 0, 300, 200), "Bath": (300, 0, 200, 200), "Door": (290, 80, 20, 50)}
+    boxes["Sofa"] = (20, 140, 120, 50)
+    cells = (vertex(label, value=label, box=corners) for label, corners in boxes.items())
+    graph = decompose(interpret(read(tmp_path, model(*cells))).sketch, DecompositionSettings())
+
+    assert ["Bath", "Kitchen"] == sorted(cell.label for cell in graph.cells)
+    assert 1 == len(graph.gateways)

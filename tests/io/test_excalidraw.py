@@ -73,6 +73,14 @@ def test_an_arrow_without_a_head_is_a_line(tmp_path):
     assert [(), ("arrow",), ("arrow",)] == [mark.names for mark in sheet.marks]
 
 
+def test_a_label_that_says_what_a_shape_is_names_it_and_its_words(tmp_path):
+    box, label = element("rectangle"), element("text", text="desk", containerId="rectangle")
+    sheet = read(tmp_path, box, label, element("rectangle", id="other"))
+
+    assert [("desk",), ()] == [mark.names for mark in sheet.marks]
+    assert ("desk",) == sheet.texts[0].names
+
+
 def test_words_are_read_line_by_line(tmp_path):
     text = element("text", text="Bed\nroom", fontSize=10)
     bed, room = read(tmp_path, element("rectangle"), text).texts

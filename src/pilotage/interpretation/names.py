@@ -52,6 +52,7 @@ VOCABULARY: Mapping[Role, str] = {
     " kitchenware plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель"
     " couch couches sofas bench benches shelf shelves shelving rack racks bookcase bookshelf bookshelves"
     " cabinets cupboard cupboards desks chairs tables beds armchair armchairs stool stools toilets sinks"
+    " wardrobe wardrobes dresser dressers nightstand nightstands sideboard sideboards television tv microwave"
     " basin basins washbasin tub stove oven fridge refrigerator dishwasher countertop countertops worktop"
     " lamp lamps lights lighting sockets outlets switches radiator radiators people cars vehicles"
     " einrichtung möblierung moeblierung inventar regal regale schrank schränke schraenke tisch tische stuhl"
@@ -101,6 +102,26 @@ CALLED = frozenset(
 """By these things rooms are called, too: what is classed a room, or stands among rooms, is none of them."""
 
 MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
+
+THINGS = (Role.DOOR, Role.WINDOW, Role.FURNITURE)
+PLACES = frozenset(
+    (
+        "toilet",
+        "toilets",
+        "shower",
+        "equipment",
+        "equip",
+        "plumbing",
+        "fittings",
+        "sanitary",
+        "plants",
+        "people",
+    )
+)
+"""Rooms are called by these words for what stands in them."""
+
+BEDS = frozenset(("bed", "beds"))
+"""With a number they are bedrooms."""
 
 HEADS = (
     *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
@@ -205,6 +226,17 @@ def meaning_of(word: str) -> Role | None:
     if word in MEANING:
         return MEANING[word]
     return next((MEANING[head] for head in HEADS if word.endswith(head)), None)
+
+
+def thing_called(label: str) -> str:
+    """Return a label that makes what it is written on a door, a window or furniture; of all others nothing.
+
+    >>> [thing_called(label) for label in ("Coffee table", "Door 2", "Toilet", "Bed 2", "Bed room")]
+    ['Coffee table', 'Door 2', '', '', '']
+    """
+    *_, head = name_words(re.sub(r"\(.*?\)", " ", label)) or [""]
+    is_room = head in PLACES or (head in BEDS and any(map(str.isdecimal, label)))
+    return label if meaning_of(head) in THINGS and not is_room else ""
 
 
 def name_words(name: str) -> list[str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array
+from pilotage.interpretation.names import thing_called
 from pilotage.interpretation.sheet import WHITE, Pen, Sheet, Text
 from pilotage.io.colors import read_color
 from pilotage.io.curves import arc, bezier
@@ -45,18 +46,20 @@ def read_excalidraw(path: Path) -> Sheet:
     builder = SheetBuilder(path, y_down=True)
     frames = {words(element.get("id")): words(element.get("name")) for element in elements}
     groups: dict[str, int] = {}
+    labels = {words(element.get("containerId")): words(element.get("text")) for element in elements}
     for element in elements:
+        holder = words(element.get("containerId")) or words(element.get("id"))
         with builder.surviving("damaged elements"):
-            read_element(element, builder, frames, groups)
+            read_element(element, builder, frames, groups, thing_called(labels.get(holder, "")))
     state = scene.get("appState")
     ground = words(state.get("viewBackgroundColor")) if isinstance(state, dict) else ""
     return builder.build(background=read_color(ground) or WHITE)
 
 
 def read_element(
-    element: Json, builder: SheetBuilder, frames: dict[str, str], groups: dict[str, int]
+    element: Json, builder: SheetBuilder, frames: dict[str, str], groups: dict[str, int], called: str
 ) -> None:
-    """Add one element to a sheet."""
+    """Add one element to a sheet; `called` is its label if that says what it is."""
     kind = words(element.get("type"))
     if kind in PICTURES:
         builder.leave_out(PICTURES[kind])
@@ -72,7 +75,7 @@ def read_element(
     has_head = kind == "arrow" and any(
         element.get(end, usual) for end, usual in (("startArrowhead", None), ("endArrowhead", "arrow"))
     )
-    names = (frames.get(words(element.get("frameId")), ""), "arrow" if has_head else "", role)
+    names = (frames.get(words(element.get("frameId")), ""), "arrow" if has_head else "", called, role)
     source = f"{kind} {words(element.get('id'))}".strip()
     if kind == "text":
         if opacity > 0.0:

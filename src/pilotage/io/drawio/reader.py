@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from pilotage.interpretation.names import thing_called
 from pilotage.interpretation.sheet import BLACK, WHITE, Color, Pen, Sheet
 from pilotage.io.colors import read_color
 from pilotage.io.drawio.cells import Box, Cell, Cells, number, read_cells
@@ -9,7 +10,7 @@ from pilotage.io.drawio.document import read_diagrams, read_model
 from pilotage.io.drawio.edges import edge_way
 from pilotage.io.drawio.figures import INVISIBLE, figures_of, page_from_figure
 from pilotage.io.drawio.floorplan import Style
-from pilotage.io.drawio.labels import read_label
+from pilotage.io.drawio.labels import lines_of, read_label
 from pilotage.io.pages import choose_page, other_pages
 from pilotage.io.sheet_builder import SheetBuilder, outline_through
 
@@ -65,7 +66,8 @@ class PageReader:
         """Read a shape and its label."""
         box, style = self.cells.box(cell), cell.style
         shape = style.get("shape", "")
-        names = (*names, shape if "." in shape or shape == "dimension" else "")
+        library = shape if "." in shape or shape == "dimension" else ""
+        names = (*names, library, thing_called(" ".join(lines_of(cell.value))))
         if shape == "image" or "image" in style:
             self.builder.leave_out("embedded pictures")
         else:
