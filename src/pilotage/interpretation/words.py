@@ -69,15 +69,15 @@ def is_measure(words: str) -> bool:
     [True, True, True, False, False]
     >>> [is_measure(words) for words in ("16,9 м²", "S = 8.5 кв.м", "6帖", "面积 12 平方米", "洋室 6帖")]
     [True, True, True, True, False]
-    >>> is_measure("2,55"), is_measure("2.55")
-    (True, False)
+    >>> is_measure("2,55"), is_measure("2.55"), is_measure("13.9㎡")
+    (True, False, True)
     """
     if COMMA.fullmatch(words.strip()):
         return True
     tokens = TOKEN.findall(words.casefold())
     letters = [token for token in tokens if token.lstrip("°")[:1].isalpha() and token not in AROUND]
     has_number = any(token[0].isdecimal() for token in tokens)
-    has_unit = bool(letters) or any(token in SIGNS for token in tokens)
+    has_unit = bool(letters) or any(token in SIGNS or token in UNITS for token in tokens)
     return has_number and has_unit and all(word in UNITS for word in letters)
 
 
