@@ -150,6 +150,17 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("Außenwand", Role.WALL),
         ("seuils", Role.DOOR),
         ("sheet-border", Role.IGNORE),
+        ("外墙", Role.WALL),
+        ("尺寸标注", Role.IGNORE),
+        ("ALVENARIA", Role.WALL),
+        ("Drzwi", Role.DOOR),
+        ("Kapılar", Role.DOOR),
+        ("Okna", Role.WINDOW),
+        ("가구", Role.FURNITURE),
+        ("通り芯", Role.IGNORE),
+        ("Оси", Role.IGNORE),
+        ("DOTE", Role.IGNORE),
+        ("E-POWR", Role.IGNORE),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):

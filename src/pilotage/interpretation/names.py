@@ -38,12 +38,16 @@ SPOKEN: Mapping[str, Role] = {
 
 VOCABULARY: Mapping[Role, str] = {
     Role.WALL: "wall walls partition partitions wand waende wände mauer mur murs cloison muro muri muros"
-    " parete parede paredes pared tabique muur muren vägg vegg seinä стена стены",
+    " parete parede paredes pared tabique tabiques muur muren vägg vegg seinä стена стены mauerwerk muratura"
+    " murature alvenaria alvenarias duvar duvarlar ściana ściany sciana sciany stěna stěny stena steny zdivo"
+    " falak zid zidovi væg vægge väggar 墙 墙体 壁 벽 벽체",
     Role.DOOR: "door doors doorarc doorway doorways threshold thresholds tür türen tuer tueren schwelle"
     " schwellen porte portes seuil seuils porta porte portas soglia soglie soleira puerta puertas umbral"
-    " deur deuren drempel dörr ovi двери дверь",
+    " deur deuren drempel dörr ovi двери дверь drzwi dveře dvere kapı kapi kapılar kapilar ajtó ajtók vrata"
+    " dør dører døre dörrar 门 ドア 扉 문",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
-    " ventanas janela janelas raam ramen fönster ikkuna окно окна",
+    " ventanas janela janelas raam ramen fönster ikkuna окно окна okno okna pencere pencereler ablak ablakok"
+    " prozor prozori vindu vinduer vindue vinduer 窗 窓 창문",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
     " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
@@ -63,9 +67,11 @@ VOCABULARY: Mapping[Role, str] = {
     " estantería estanterías armario armarios silla sillas mesa mesas cama camas arredi arredamento"
     " divano divani panca panche scaffale scaffali armadio armadi sedia sedie tavolo tavoli letto letti"
     " sanitari meubels kast kasten tafel tafels stoel stoelen bedden rekken mobiliário móveis moveis"
-    " prateleira prateleiras armário armários cadeira cadeiras louças",
+    " prateleira prateleiras armário armários cadeira cadeiras louças meble nábytek nabytek nábytok mobilya"
+    " mobilyalar bútor bútorok namještaj møbler huonekalut 家具 洁具 가구",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto"
-    " textos tekst raumnamen raumbezeichnung glyph glyphs",
+    " textos tekst raumnamen raumbezeichnung glyph glyphs teksty napisy opisy popisy yazı yazi метки текст"
+    " тексты надписи 文字 문자",
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
@@ -74,6 +80,9 @@ VOCABULARY: Mapping[Role, str] = {
     " maten beam beams joist joists träger traeger balken unterzug unterzüge unterzuege poutre poutres"
     " viga vigas trave travi balk overhang ceiling clng decke plafond soffitto hvac ducts elec elektro"
     " compass scalebar watermark logo arrow arrows pfeil pfeile flèche flèches freccia frecce flecha flechas"
+    " eje ejes eixo eixos oś osie wymiar wymiary aks akslar ölçü olcu ölçüler olculer kóta kóty méretek"
+    " tengely оси ось размер размеры штриховка сетка dote 轴线 轴网 标注 尺寸 图框 填充 寸法 通り芯 基準線"
+    " グリッド 치수 중심선 powr lite sanr htng"
     " leader mleader multileader hilfslinie hilfslinien hilfskonstruktion guide guides guideline guidelines",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
@@ -127,8 +136,9 @@ HEADS = (
     *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
     *("schrank", "schränke", "schraenke", "regal", "regale", "tisch", "tische", "stuhl", "stühle", "stuehle"),
     *("bett", "betten", "träger", "traeger", "balken"),
+    *("墙", "墙体", "标注", "尺寸", "轴线", "轴网", "家具", "壁", "寸法", "通り芯", "치수", "중심선"),
 )
-"""What ends with one of these is of its kind: "Stahlträger" is a beam. German joins its words."""
+"""What ends with one of these is of its kind: "Stahlträger" is a beam. German and others join their words."""
 
 
 def words_of(name: str) -> Iterator[str]:
