@@ -323,3 +323,17 @@ def test_passages_of_an_area_graph_are_doors(tmp_path):
 
     assert joined(sheet) == {frozenset("ab")}
     assert ["furniture"] == [mark.names[0] for mark in sheet.marks if mark.names != ("wall",)]
+
+
+def test_coordinates_of_a_national_grid_are_metres(tmp_path):
+    west, north = 691_000.0, 5_335_000.0
+    shapes = {"a": box(0, 0, 4, 3), "b": box(4.2, 0, 8, 3)}
+    rooms = [feature(points, Typ="Raum", Name=name) for name, points in shapes.items()]
+    for made, points in zip(rooms, shapes.values(), strict=True):
+        made["geometry"]["coordinates"] = [[[west + x, north + y] for x, y in points]]
+    door = feature([(0, 0)], "Point", Typ="Tür")
+    door["geometry"]["coordinates"] = [west + 4.1, north + 1.5]
+    sheet = read(tmp_path, *rooms, door)
+
+    assert 1.0 == sheet.metres_per_unit
+    assert joined(sheet) == {frozenset("ab")}

@@ -100,7 +100,18 @@ OTHERS = {
 }
 """Tags of OSM and of osmAG, area graphs for robots, that tell what a feature is where `indoor` does not."""
 
-TYPES = ("feature_type", "objecttype", "object_type", "type", "kind", "class", "use_type", "category")
+TYPES = (
+    "feature_type",
+    "objecttype",
+    "object_type",
+    "type",
+    "typ",
+    "tipo",
+    "kind",
+    "class",
+    "use_type",
+    "category",
+)
 """Where maps that keep to no standard say what a feature is, in words."""
 
 CALLED = {

@@ -22,6 +22,9 @@ EARTH = 6_371_008.8
 LARGEST_SPAN = 0.1
 """Coordinates that span less than this and could be degrees are degrees: 11 km; no drawing is so small."""
 
+FARTHEST = 100.0
+"""Coordinates that lie so many of their spans from the origin are metres of a country's grid."""
+
 DOOR_WIDTH = 0.9
 """Width of a door whose width is not told [m]."""
 
@@ -86,11 +89,15 @@ def level_names(features: Sequence[Feature]) -> list[str]:
 
 
 def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry], float | None]:
-    """Carry longitudes and latitudes [deg] to a plane [m]; other coordinates stay as they are."""
+    """Carry longitudes and latitudes [deg] to a plane [m]; other coordinates stay as they are.
+
+    Returns their metres, None if these are not known, as well.
+    """
     left, bottom, right, top = shapely.total_bounds(shapes)
     span = max(right - left, top - bottom)
     if not (abs(left) <= 180.0 and abs(right) <= 180.0 and abs(bottom) <= 90.0 and abs(top) <= 90.0):
-        return list(shapes), None
+        is_far = 0.0 < FARTHEST * span < math.hypot(left, bottom)
+        return list(shapes), 1.0 if is_far else None
     if not span < LARGEST_SPAN:
         return list(shapes), None
     north = math.radians(1.0) * EARTH
