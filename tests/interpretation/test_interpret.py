@@ -305,3 +305,13 @@ def test_words_on_layers_of_dimensions_and_furniture_name_no_room():
     assert {"Office"} == names(office, *others)
     assert {"4.52", "Desk"} == names(*others)  # nothing is written elsewhere
     assert {"Office", "Cabinet"} == names(office, Text("Cabinet", (75, 40), 3, names=("7-Cabinet",)))
+
+
+def test_outlines_of_rooms_along_walls_of_a_layer_of_their_own_close_no_door():
+    walls = tuple(replace(mark, names=("A-WALL",)) for mark in WITH_GAP)
+    rooms = [box(0, 0, 50, 80, pen=Pen(BLACK, 1.0)), box(50, 0, 100, 80, pen=Pen(BLACK, 1.0))]
+    areas = tuple(replace(mark, names=("A-AREA",)) for mark in rooms)
+
+    assert are_joined((*walls, *areas))
+    assert not are_joined((*WITH_GAP, *areas))  # no layer says what is a wall
+    assert not are_joined((walls[0], *areas))  # it holds the outer walls alone

@@ -164,6 +164,7 @@ def evidence_of(view: View, parts: Parts, painted: Sequence[int]) -> Evidence:
             **dict.fromkeys(painted, Meaning(Role.WALL, "painted as a room; its edge is the wall")),
             **dict.fromkeys(parts.dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
             **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in parts.halves},
+            **dict.fromkeys(parts.areas, Meaning(Role.IGNORE, "the outline of a room, along its walls")),
             **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),
             **dict.fromkeys(parts.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),
             **dict.fromkeys(parts.signs, Meaning(Role.IGNORE, "a disc in a color of its own, or a compass")),

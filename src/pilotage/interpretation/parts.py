@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import shapely
 
+from pilotage.interpretation.areas import find_areas
 from pilotage.interpretation.bars import Bar, find_bars, without_bars
 from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
@@ -33,6 +34,7 @@ class Parts:
     measuring: AbstractSet[int]  # dimension lines
     signs: AbstractSet[int]  # discs and compasses
     written: AbstractSet[int]  # texts of these
+    areas: AbstractSet[int]  # outlines of rooms, along their walls
     built: Sequence[Seen]  # marks that are none of these
     doors: Sequence[Door]  # leaf and arc
     bars: Sequence[Bar]  # patches across a wall
@@ -56,6 +58,8 @@ def take_apart(view: View) -> Parts:
     axes = find_axes(sheet, [mark for mark in built if mark.number not in view.guessed], diagonal)
     built = [mark for mark in built if mark.number not in axes]
     doors = find_doors(sheet, built, diagonal)
+    areas = set() if doors else find_areas(sheet, view.called, diagonal)  # a leaf opens these, too
+    built = [mark for mark in built if mark.number not in areas]
     roles = {number: role for number, (role, _) in view.guessed.items()}
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
     bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
@@ -75,7 +79,7 @@ def take_apart(view: View) -> Parts:
     )
     stairs = find_stairs([mark for mark in left if view.role(mark) is Role.STAIRS], sheet, diagonal)
     return Parts(
-        measuring, signs, written, built, doors, bars, halves, dashed, axes, left, lines, walls, stairs
+        measuring, signs, written, areas, built, doors, bars, halves, dashed, axes, left, lines, walls, stairs
     )
 
 
