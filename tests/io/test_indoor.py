@@ -337,3 +337,16 @@ def test_coordinates_of_a_national_grid_are_metres(tmp_path):
 
     assert 1.0 == sheet.metres_per_unit
     assert joined(sheet) == {frozenset("ab")}
+
+
+@pytest.mark.parametrize("unit", [1.0, 100.0], ids=["metres", "pixels"])
+def test_maps_of_a_plane_have_doors_and_walls_in_units_of_their_own(tmp_path, unit):
+    def on_plane(points, kind="Polygon", **properties):
+        return feature([(x * unit / METRE, y * unit / METRE) for x, y in points], kind, **properties)
+
+    rooms = [on_plane(box(0, 0, 6, 5), type="room", name="a")]
+    rooms.append(on_plane(box(6.2, 0, 12, 5), type="room", name="b"))
+    sheet = read(tmp_path, *rooms, on_plane([(6.1, 2)], "Point", type="door"))
+
+    assert sheet.metres_per_unit is None
+    assert joined(sheet) == {frozenset("ab")}

@@ -25,6 +25,9 @@ LARGEST_SPAN = 0.1
 FARTHEST = 100.0
 """Coordinates that lie so many of their spans from the origin are metres of a country's grid."""
 
+WIDEST, USUAL = 300.0, 25.0
+"""Coordinates of a plane that span no more than the first are metres; others span the second [m]."""
+
 DOOR_WIDTH = 0.9
 """Width of a door whose width is not told [m]."""
 
@@ -69,13 +72,14 @@ def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> S
         if not names or not feature.levels or names[chosen] in feature.levels
     ]
     builder = SheetBuilder(path)
-    openings = [opening_of(feature, shape) for feature, shape in shown if feature.kind is Kind.OPENING]
-    draw_walls(builder, shown, openings, WALL_GRID if metres else None)
+    unit = metres or unit_of(shapes)
+    openings = [opening_of(feature, shape, unit) for feature, shape in shown if feature.kind is Kind.OPENING]
+    draw_walls(builder, shown, openings, unit)
     doors = shapely.STRtree(openings)
     for feature, shape in shown:
         with builder.surviving("damaged features"):
             is_entered = feature.kind in STEPPED and len(doors.query(shape, predicate="intersects")) > 0
-            draw(builder, feature, shape, is_room=is_entered)
+            draw(builder, feature, shape, unit, is_room=is_entered)
     return builder.build(
         metres_per_unit=metres, remarks=other_pages(names, chosen, path, kind="level") if names else ()
     )
@@ -110,22 +114,29 @@ def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry
     return moved, 1.0
 
 
-def opening_of(feature: Feature, shape: shapely.Geometry) -> shapely.Geometry:
+def unit_of(shapes: Sequence[shapely.Geometry]) -> float:
+    """Guess how many units of a plane make a metre: one, or many where it is of pixels or millimetres."""
+    left, bottom, right, top = shapely.total_bounds(shapes)
+    span = float(max(right - left, top - bottom))
+    return 1.0 if span <= WIDEST else span / USUAL
+
+
+def opening_of(feature: Feature, shape: shapely.Geometry, unit: float) -> shapely.Geometry:
     """Return the area within which a door opens walls."""
     if shape.geom_type == "Point":
-        return shapely.buffer(shape, (feature.width or DOOR_WIDTH) / 2.0)
-    return shapely.buffer(shape, REACH, cap_style="flat")
+        return shapely.buffer(shape, (feature.width or DOOR_WIDTH) * unit / 2.0)
+    return shapely.buffer(shape, REACH * unit, cap_style="flat")
 
 
 def draw_walls(
     builder: SheetBuilder,
     shown: Sequence[tuple[Feature, shapely.Geometry]],
     openings: Sequence[shapely.Geometry],
-    grid: float | None,
+    unit: float,
 ) -> None:
     """Draw the walls of all rooms, each once, open at doors and between corridors.
 
-    A door leads from jamb to jamb. Walls that are less than a `grid` [map units] apart are one.
+    A door leads from jamb to jamb. A metre has so many units of the map.
     """
     walls = [lines_of(shape) for feature, shape in shown if feature.kind in WALLED]
     spaces = [shape for feature, shape in shown if feature.kind in SPACES]
@@ -133,7 +144,7 @@ def draw_walls(
     if not walls and not outer:
         outer = [lines_of(shape) for shape in spaces]
     passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
-    drawn = shapely.union_all([*walls, *outer], grid_size=grid)
+    drawn = shapely.union_all([*walls, *outer], grid_size=WALL_GRID * unit)
     drawn = shapely.difference(drawn, shared(passages))
     lines = np.array([part for part in parts_of(drawn) if part.geom_type == "LineString"], dtype=object)
     tree = shapely.STRtree(lines)
@@ -143,9 +154,8 @@ def draw_walls(
             if jambs.geom_type == "LineString":
                 builder.add_opening(outline_through(shapely.get_coordinates(jambs)[[0, -1]]))
     doors = shapely.union_all(openings)
-    if grid is not None:
-        for part in parts_of(shapely.difference(between(spaces, grid), doors)):
-            builder.add_mark(outlines_of_area(part), pen=None, fill=BLACK, names=("wall",), source="walls")
+    for part in parts_of(shapely.difference(between(spaces, unit), doors)):
+        builder.add_mark(outlines_of_area(part), pen=None, fill=BLACK, names=("wall",), source="walls")
     drawn = shapely.difference(drawn, doors)
     for part in shapely.get_parts(shapely.line_merge(drawn)):
         if part.geom_type == "LineString" and part.length > 0.0:
@@ -157,14 +167,16 @@ def draw_walls(
             )
 
 
-def between(spaces: Sequence[shapely.Geometry], grid: float) -> shapely.Geometry:
-    """Return what lies between rooms that are drawn by their inner faces: walls thicker than `grid`."""
+def between(spaces: Sequence[shapely.Geometry], unit: float) -> shapely.Geometry:
+    """Return what lies between rooms that are drawn by their inner faces: walls that have a thickness."""
     whole = shapely.union_all([space for space in spaces if space.geom_type in ("Polygon", "MultiPolygon")])
-    near = shapely.buffer(whole, THICKEST / 2.0, join_style="mitre")
-    walls = shapely.difference(shapely.buffer(near, -THICKEST / 2.0, join_style="mitre"), whole)
-    return shapely.buffer(
-        shapely.buffer(walls, -grid / 2.0, join_style="mitre"), grid / 2.0, join_style="mitre"
-    )
+    closed = grown(grown(whole, THICKEST * unit / 2.0), -THICKEST * unit / 2.0)
+    return grown(grown(shapely.difference(closed, whole), -WALL_GRID * unit / 2.0), WALL_GRID * unit / 2.0)
+
+
+def grown(shape: shapely.Geometry, distance: float) -> shapely.Geometry:
+    """Move the outline of a shape outwards, its corners sharp."""
+    return shapely.buffer(shape, distance, join_style="mitre")
 
 
 def shared(lines: Sequence[shapely.Geometry]) -> shapely.Geometry:
@@ -183,7 +195,9 @@ def lines_of(shape: shapely.Geometry) -> shapely.Geometry:
     return shapely.boundary(shape) if shape.geom_type in ("Polygon", "MultiPolygon") else shape
 
 
-def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is_room: bool) -> None:
+def draw(
+    builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, unit: float, *, is_room: bool
+) -> None:
     """Draw what is no wall, and write the name of a feature.
 
     Stairs and lifts with a door are rooms: all that is drawn of them are their walls, open at the door.
@@ -204,6 +218,5 @@ def draw(builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, *, is
             )
     if feature.name and feature.kind not in NAMELESS and not shape.is_empty:
         point = shapely.point_on_surface(shape)
-        builder.add_text(
-            Text(feature.name, (point.x, point.y), CAPITAL, names=names, groups=group, source=feature.source)
-        )
+        place, height = (point.x, point.y), CAPITAL * unit
+        builder.add_text(Text(feature.name, place, height, 0.0, names, group, feature.source))
