@@ -90,11 +90,14 @@ def find_all(
     sketch: SchematicMap, division: Division, interpretation: Interpretation | None
 ) -> Iterator[Finding]:
     """Ask all checks."""
+    drawn = drawn_doors(interpretation)
     yield from find_bad_ends(sketch, division.graph)
-    yield from find_no_door(division.graph)
-    yield from find_parts(division.graph)
+    if len(division.graph.cells) > 1 and not division.graph.gateways:
+        yield from find_no_door(division.graph, drawn)
+    else:
+        yield from find_parts(division.graph)
     yield from find_closed_areas(sketch, division)
-    yield from find_rooms_without_door(sketch, division.graph, drawn_doors(interpretation))
+    yield from find_rooms_without_door(sketch, division.graph, drawn)
     yield from find_stair_rooms(division.graph, sketch.zones)
     yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)

@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from pilotage.findings.doors import door_width
+from pilotage.findings.doors import door_width, suggest_door
 from pilotage.findings.finding import Finding, Mend, MendKind, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation
@@ -87,15 +87,17 @@ def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
         )
 
 
-def find_no_door(graph: CellGraph) -> Iterator[Finding]:
-    """Find that all rooms of several are closed boxes."""
-    if len(graph.cells) > 1 and not graph.gateways:
-        yield no_doors("rooms are closed, but none has a door")
+def find_no_door(graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+    """Find that all rooms of several are closed boxes; `drawn` are places of drawn doors, (n, 2)."""
+    first, *others = graph.cells
+    mend = suggest_door(first.polygon, [other.polygon for other in others], graph, drawn)
+    yield no_doors(f"none of the {len(graph.cells)} rooms has a door to another", mend)
 
 
-def no_doors(reason: str) -> Finding:
+def no_doors(reason: str, mend: Mend | None = None) -> Finding:
     """Say that all rooms are closed boxes."""
-    return Finding("no-doors", Severity.ERROR, reason, "erase a piece of wall wherever a door is")
+    advice = "erase a piece of wall wherever a door is"
+    return Finding("no-doors", Severity.ERROR, reason, advice, mend=mend)
 
 
 def nothing_enclosed(sketch: SchematicMap, reason: str) -> Finding:

@@ -50,7 +50,10 @@ VOID_ADVICE = "if it is furniture or a void, nothing is to be done; if it is a r
 
 
 def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array) -> Iterator[Finding]:
-    """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2)."""
+    """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2).
+
+    Where there is none at all, `find_no_door` says so of all, and only those that open outwards are told.
+    """
     rooms = [cell for cell in graph.cells if not graph.gateways_of(cell.cell_id)]
     if len(graph.cells) == 1 or not rooms:
         return
@@ -66,6 +69,8 @@ def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array
         elif is_open(cell.polygon.exterior, strokes, LEAST_DOOR * door_width(graph), ALONG * graph.diameter):
             text += ", except from outside of what is drawn"
             advice = "draw the walls around the place where it leads, or leave a gap in another wall"
+        elif not graph.gateways:
+            continue
         severity = Severity.NOTE if is_void else Severity.WARNING
         yield Finding("room-without-door", severity, text, advice, cell.center, (cell.cell_id,), mend)
 
