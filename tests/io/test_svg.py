@@ -60,6 +60,9 @@ STROKE = 'stroke="black" fill="none"'
         (f'<rect class="room" id="living_room" width="9" height="9" {STROKE}/>', "", ["living_room"], 1),
         (f'<g id="rooms"><rect class="room" id="rect304" width="9" height="9" {STROKE}/></g>', "", [], 1),
         (f'<rect id="kitchen" width="9" height="9" {STROKE}/>', "", [], 1),
+        (LINE + '<rect class="room" id="office" width="9" height="9" fill-opacity="0"/>', "", ["office"], 1),
+        (LINE + '<rect width="9" height="9" opacity="0"><title>Bath</title></rect>', "", ["Bath"], 1),
+        (LINE + '<rect width="9" height="9" display="none"><title>Bath</title></rect>', "", [], 1),
     ],
 )
 def test_labels_are_words_or_what_a_shape_is_called(tmp_path, body, attributes, labels, strokes):

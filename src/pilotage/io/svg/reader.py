@@ -53,6 +53,7 @@ class Content:
     page: Viewport | None
     metres_per_unit: float | None  # what the file claims
     background: Color = PAPER  # of the page, as its style says
+    unseen: Sequence[Shape] = ()  # areas without paint, at which one can point nevertheless
 
 
 def read_content(path: Path) -> Content:
@@ -63,11 +64,12 @@ def read_content(path: Path) -> Content:
     root = read_document(path)
     with reading_values(path):
         document = Document(root)
-        items = [item for item in document.walk() if item.style.shown]
+        items = [item for item in document.walk() if item.style.there]
         clips = Clips(document)
-        shapes = [shape for item in items for shape in read_shape(item, clips)]
+        shapes = [shape for item in items if is_seen(item) for shape in read_shape(item, clips)]
+        unseen = [shape for item in items if not is_seen(item) for shape in read_shape(item, clips)]
     texts = [item for item in items if local_name(item.element.tag) in WORDED and has_text(item)]
-    return Content(shapes, texts, document.page, read_scale(root), read_background(document))
+    return Content(shapes, texts, document.page, read_scale(root), read_background(document), unseen)
 
 
 def read_background(document: Document) -> Color:
@@ -118,9 +120,7 @@ def read_document(path: Path) -> ET.Element:
 
 
 def read_shape(item: Drawn, clips: Clips) -> Iterator[Shape]:
-    """Carry a shape to the root's coordinates; texts, and shapes of which nothing is seen, give none."""
-    if not (item.style.stroked or item.style.filled):
-        return
+    """Carry a shape to the root's coordinates; texts, and shapes that are cut away, give none."""
     for outline in outline_of(item):
         bounds = bounds_of(outline)
         if not all(abs(bound) <= FARTHEST for bound in bounds):  # not a number, too
@@ -189,9 +189,14 @@ def flipped(stroke: Polyline) -> Polyline:
     return Polyline(stroke.vertices * (1.0, -1.0), stroke.closed)
 
 
+def is_seen(item: Drawn) -> bool:
+    """Tell whether anything is painted."""
+    return item.style.filled or item.style.stroked
+
+
 def has_text(item: Drawn) -> bool:
     """Tell whether a text says anything that can be seen."""
-    return (item.style.filled or item.style.stroked) and any(part.strip() for part in item.element.itertext())
+    return is_seen(item) and any(part.strip() for part in item.element.itertext())
 
 
 def apply(matrix: svgelements.Matrix, point: Array) -> Array:

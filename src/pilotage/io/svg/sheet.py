@@ -55,7 +55,11 @@ def read_svg_sheet(path: Path) -> Sheet:
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(
         marks,
-        (*words, *texts_of_labels(labels, letters, words), *texts_of_rooms(shapes, words)),
+        (
+            *words,
+            *texts_of_labels(labels, letters, words),
+            *texts_of_rooms([*shapes, *content.unseen], words),
+        ),
         bounds,
         content.background,
         y_down=True,

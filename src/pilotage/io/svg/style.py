@@ -271,9 +271,14 @@ class Style:
         return Style({**known, **own}, self.opacity * opacity, self.displayed and displayed)
 
     @property
+    def there(self) -> bool:
+        """Whether the element is there at all; one that is as clear as glass can still be pointed at."""
+        return self.displayed and self.values["visibility"] == "visible"
+
+    @property
     def shown(self) -> bool:
         """Whether the element is shown at all."""
-        return self.displayed and self.opacity > 0.0 and self.values["visibility"] == "visible"
+        return self.there and self.opacity > 0.0
 
     @property
     def stroked(self) -> bool:
