@@ -8,7 +8,7 @@ import shapely
 from flats import BLACK, OUTSIDE, WHITE, WITH_GAP, arc, are_joined, box, graph_of, stroke
 from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 from pilotage.interpretation.paint import NOTHING
-from pilotage.interpretation.windows import panes, windows
+from pilotage.interpretation.windows import panes, windows, without_slivers
 
 PEN = Pen(BLACK, 1.0)
 WALL = stroke((50, 0), (50, 80))
@@ -430,3 +430,12 @@ def test_a_door_that_is_drawn_parts_even_where_a_corridor_hardly_narrows():
 
     assert {cell.label for cell in graph_of((*PASSAGE, *door), IN_PASSAGE).cells} == {"bath", "hall"}
     assert [cell.label for cell in graph_of(PASSAGE, IN_PASSAGE).cells] == ["bath, hall"]
+
+
+def test_walls_without_their_slivers_are_areas_where_they_touch_one_along_a_line():
+    solid = shapely.multipolygons([shapely.box(0, 0, 8, 8), shapely.box(8.0078125, 0, 8.03125, 8)])
+
+    body = without_slivers(solid, 0.78125)
+
+    assert {2} == set(shapely.get_dimensions(shapely.get_parts(body)).tolist())
+    assert body.area == pytest.approx(64.0)

@@ -20,7 +20,8 @@ DEEP = 1.2
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
     """Leave out what is thinner than a width: leaves of doors that are painted like walls."""
     inner = shapely.buffer(solid, -width / 2.0, join_style="mitre")
-    return shapely.intersection(shapely.buffer(inner, 0.51 * width, join_style="mitre"), solid)
+    left = parts_of(shapely.intersection(shapely.buffer(inner, 0.51 * width, join_style="mitre"), solid))
+    return shapely.multipolygons(left[shapely.get_dimensions(left) == 2])  # where both touch there are lines
 
 
 def windows(
