@@ -1,11 +1,13 @@
 """Drawings made by hand for one question each."""
 
+import functools
 import gzip
 import math
 import os
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from svgelements import Matrix
@@ -526,6 +528,22 @@ def test_of_two_elements_with_one_id_the_first_is_used(tmp_path):
     path.write_text(f'<svg viewBox="0 0 99 99">{twins}<use href="#w" stroke="black"/></svg>')
     (mark,) = read_svg_sheet(path).marks
     assert mark.outlines[0].vertices.tolist() == [[0, 0], [9, 0]]
+
+
+@pytest.mark.parametrize(
+    ("inner", "area"), [("M1 1H9V9H1Z", 100.0), ("M1 1V9H9V1Z", 36.0), ("M8 0H12V10H8Z", 120.0)]
+)
+@pytest.mark.parametrize(("rule", "share"), [("", 1.0), ('fill-rule="evenodd"', 0.0)])
+def test_paths_are_filled_by_the_rule_that_they_name(tmp_path, inner, area, rule, share):
+    path = tmp_path / "plan.svg"
+    path.write_text(f'<svg viewBox="0 0 99 99"><path d="M0 0H10V10H0Z{inner}" {rule}/></svg>')
+    twice = {"M1 1H9V9H1Z": 64.0, "M1 1V9H9V1Z": 0.0, "M8 0H12V10H8Z": 20.0}[inner]
+
+    found = interpret(read_svg_sheet(path)).sketch
+    rings = [shapely.Polygon(stroke.vertices) for stroke in found.strokes]
+    filled = functools.reduce(shapely.symmetric_difference, rings)
+
+    assert shapely.area(filled) == pytest.approx(area - (1.0 - share) * twice)
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from pilotage.io.svg.servers import has_area
 from pilotage.io.svg.style import is_named, leading_number, local_name
 from pilotage.io.svg.texts import read_texts
 from pilotage.io.svg.tree import DRAWN, HOLDING, OUTLINED, Drawn
+from pilotage.io.svg.winding import filled_twice
 
 Labeled = Mapping[tuple[int, str], Sequence[Shape]]
 """Shapes by the label that they bear, the number of what bears it first: of letters it is what they spell."""
@@ -86,9 +87,14 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark
         names = (*names, "wall")
     if drawn.outlined in letters:
         names = (*names, "text")
-    parts: Iterable[Part] = [(outlines, pen, fill)]
+    winds = fill is not None and drawn.style.values["fill-rule"] == "nonzero"
+    twice = filled_twice(outlines) if winds else None
+    wholes: list[Part] = [(outlines, pen, fill)]
+    if twice is not None:
+        wholes = [(twice, None, fill)] + ([] if pen is None else [(outlines, pen, None)])
+    parts: Iterable[Part] = wholes
     if clip is not None and not clip.leaves_whole(outlines):
-        parts = cut(outlines, pen, fill, clip)
+        parts = (part for whole in wholes for part in cut(*whole, clip))
     for part, line, area in parts:
         if part:
             up = tuple(flipped(outline) for outline in part)

@@ -15,6 +15,7 @@ INITIAL: Mapping[str, str] = {
     "stroke-dasharray": "none",
     "stroke-opacity": "1",
     "fill-opacity": "1",
+    "fill-rule": "nonzero",
     "visibility": "visible",
     "color": "black",
     "font-size": "16",
