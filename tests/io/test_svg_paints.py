@@ -102,3 +102,13 @@ def test_the_page_has_the_background_that_its_style_tells(tmp_path, attributes, 
     path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {attributes}>{style}</svg>')
 
     assert channels(read_svg_sheet(path).background) == color
+
+
+def test_faint_paint_is_read_if_there_is_no_other(tmp_path):
+    faint = '<rect width="9" height="9" fill-opacity=".25"/>'
+
+    (alone,) = marks(tmp_path, faint)
+    (beside,) = marks(tmp_path, faint + '<rect width="9" height="9" fill="#f00"/>')
+
+    assert channels(alone.fill) == (191, 191, 191)
+    assert channels(beside.fill) == (255, 0, 0)

@@ -51,7 +51,7 @@ def read_svg_sheet(path: Path) -> Sheet:
         tolerance = FLATNESS * diagonal_of(walls or shapes) if shapes else 0.0
         labels = labeled(shapes)
         letters = {label: group for label, group in labels.items() if are_letters(label[1], group)}
-        marks = tuple(mark for shape in shapes for mark in read_mark(shape, tolerance, letters))
+        marks = read_marks(shapes, tolerance, letters, OPAQUE) or read_marks(shapes, tolerance, letters, 0.0)
         words = tuple(text for item in content.texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(
@@ -69,14 +69,21 @@ def read_svg_sheet(path: Path) -> Sheet:
     )
 
 
-def read_mark(shape: Shape, tolerance: float, letters: Labeled) -> Iterator[Mark]:
+def read_marks(
+    shapes: Sequence[Shape], tolerance: float, letters: Labeled, opaque: float
+) -> tuple[Mark, ...]:
+    """Flatten all shapes; paint that is less opaque than this is none."""
+    return tuple(mark for shape in shapes for mark in read_mark(shape, tolerance, letters, opaque))
+
+
+def read_mark(shape: Shape, tolerance: float, letters: Labeled, opaque: float) -> Iterator[Mark]:
     """Flatten a shape; one without length gives none."""
     if tolerance == 0.0:
         return
     outlines = tuple(flatten(shape.outline, tolerance))
     drawn, clip = shape.drawn, shape.clip
-    pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= OPAQUE else None
-    filled = drawn.style.filled and has_area(drawn.element) and opacity(drawn, "fill") >= OPAQUE
+    pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= opaque else None
+    filled = drawn.style.filled and has_area(drawn.element) and opacity(drawn, "fill") >= opaque
     fill = color_of(drawn, "fill") if filled else None
     if pen is None and drawn.style.stroked and fill is None:
         pen = read_pen(shape)
