@@ -203,7 +203,7 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
         words = name_words(name)
         of_room = not SPACES.isdisjoint(words)
         below, above = names[place + 1 :], names[place - 1 : place]
-        among_rooms = is_room(below[-1:]) if below else not ROOMS.isdisjoint(last_words(above))
+        among_rooms = is_room(below[-1:]) if below else holds_rooms(above)
         for word, following in pairwise([*words, ""]):
             role = meaning_of(word)
             if role is Role.FURNITURE and (following in SPACES or (among_rooms and word in CALLED)):
@@ -220,6 +220,11 @@ def is_room(names: Iterable[str]) -> bool:
     [True, True, False]
     """
     return not SPACES.isdisjoint(last_words(names))
+
+
+def holds_rooms(names: Iterable[str]) -> bool:
+    """Tell whether a name says that a group holds rooms."""
+    return not ROOMS.isdisjoint(last_words(names))
 
 
 def last_words(names: Iterable[str]) -> list[str]:

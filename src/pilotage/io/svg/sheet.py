@@ -10,18 +10,20 @@ import shapely
 import svgelements
 
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
-from pilotage.interpretation.names import SPACES, guessed_role, is_room, name_words
+from pilotage.interpretation.names import SPACES, guessed_role, holds_rooms, is_room, name_words
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import on_paper
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.outlines import FLATNESS
 from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
-from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing
+from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing, names_of
 from pilotage.io.svg.servers import has_area
 from pilotage.io.svg.style import is_named, leading_number, local_name
 from pilotage.io.svg.texts import read_texts
-from pilotage.io.svg.tree import DRAWN, HOLDING, OUTLINED, Drawn
+from pilotage.io.svg.tree import DRAWN, OUTLINED, Drawn
 from pilotage.io.svg.winding import filled_twice
+
+INKSCAPE, SERIF = "http://www.inkscape.org/namespaces/inkscape", "http://www.serif.com/"
 
 Labeled = Mapping[tuple[int, str], Sequence[Shape]]
 """Shapes by the label that they bear, the number of what bears it first: of letters it is what they spell."""
@@ -32,8 +34,11 @@ OPAQUE = 0.5
 LARGE = 0.1
 """A room is longer than this share of the drawing's diagonal; what is smaller and has a title is a thing."""
 
-GENERIC = frozenset((*SPACES, *DRAWN, *HOLDING, "rectangle", "vector", "shape", "group", "layer", "floor"))
+GENERIC = frozenset((*SPACES, *DRAWN, "rectangle", "vector", "shape", "group", "layer", "floor"))
 """Words that tell nothing of a room."""
+
+CALLED = (f"{{{INKSCAPE}}}label", "data-name", f"{{{SERIF}}}id", "id")
+"""Where programs keep what a person calls a shape, the id last: it must be of letters without blanks."""
 
 LETTERS = 0.8
 """Outlines of words have at least so many subpaths for each letter; a shape that is called so has fewer."""
@@ -206,10 +211,15 @@ def title_of(element: Element) -> str:
 
 
 def room_name(drawn: Drawn) -> str:
-    """Return the id of a shape that is classed a room and is no thing; nothing if a program made the id."""
-    name = drawn.element.get("id", "")
-    is_named_room = is_room(drawn.names[-1:]) and guessed_role(drawn.names) is None
-    return name if is_named_room and set(name_words(name)) - GENERIC else ""
+    """Return what a shape is called that is classed a room, or is in a group of rooms, and is no thing.
+
+    Nothing if a program made its label and its id.
+    """
+    above = drawn.names[: len(drawn.names) - len(list(names_of(drawn.element)))]
+    if not (is_room(drawn.names[-1:]) or holds_rooms(above[-1:])) or guessed_role(drawn.names) is not None:
+        return ""
+    written = (drawn.element.get(name, "") for name in CALLED)
+    return next((name for name in written if set(name_words(name)) - GENERIC), "")
 
 
 def source_of(drawn: Drawn) -> str:
