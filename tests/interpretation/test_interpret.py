@@ -209,6 +209,14 @@ def test_a_name_that_all_marks_bear_says_nothing_of_any(name):
     )
 
 
+def test_names_that_leave_nothing_else_say_nothing():
+    floor = box(0, 0, 100, 80, fill=WHITE, names=("rooms",))
+    walls = tuple(replace(mark, names=("border",)) for mark in WITH_GAP)
+
+    assert are_joined((floor, *walls))
+    assert Role.IGNORE is interpret(Sheet((*WITH_GAP, replace(walls[0])))).meanings[-1].role
+
+
 def test_lines_of_one_name_are_joined_and_areas_are_no_names():
     texts = (Text("Meeting", (25, 42), 3.0), Text("room", (25, 38), 3.0), Text("11.2 m²", (25, 34), 3.0))
 

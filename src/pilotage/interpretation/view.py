@@ -17,6 +17,9 @@ from pilotage.interpretation.sheet import Role, Sheet, Text
 CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
 
+NEVER_ALL = (Role.FURNITURE, Role.IGNORE)
+"""Names that make all that is visible one of these mean something else."""
+
 AROUND = 0.5
 """Walls stand around furniture: they reach over at least this share of the drawing's diagonal."""
 
@@ -79,6 +82,8 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     others = [number for number in drawn if number not in letters and not is_furniture(called[number])]
     if diagonal_of(sheet, others) < AROUND * diagonal:  # rooms are called by what stands in them
         called = {number: None if is_furniture(role) else role for number, role in called.items()}
+    if all(role is not None and role[0] in NEVER_ALL for role in (called[mark.number] for mark in visible)):
+        called = dict.fromkeys(called)  # the "border" of a school is its walls
     guessed = {
         mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
     }
