@@ -217,6 +217,26 @@ def test_names_that_leave_nothing_else_say_nothing():
     assert Role.IGNORE is interpret(Sheet((*WITH_GAP, replace(walls[0])))).meanings[-1].role
 
 
+def test_the_outline_of_a_room_is_its_wall_however_thin_and_small_it_is():
+    thick = box(0, 0, 100, 80, pen=Pen(BLACK, 4.0))
+    cells = [box(x, 60, x + 5, 65, pen=Pen(BLACK, 1.0), names=("room",)) for x in range(0, 100, 5)]
+    things = [replace(cell, names=()) for cell in cells]
+    names = [Text(f"R{k}", (5 * k + 2.5, 62.5), height=1.0) for k in range(20)]
+
+    assert 21 <= len(graph_of((thick, *cells), names).cells)
+    assert 21 > len(graph_of((thick, *things), names).cells)
+
+
+def test_the_outline_of_a_room_closes_no_gap_of_the_wall_beside_it():
+    sides = ((50, 0), (50, 34)), ((50, 42), (50, 80))
+    thick = [replace(OUTSIDE, pen=Pen(BLACK, 4.0)), *(stroke(*ends, width=4.0) for ends in sides)]
+    rooms = [
+        box(*sides, pen=Pen(BLACK, 0.5), names=("room",)) for sides in ((0, 0, 50, 80), (50, 0, 100, 80))
+    ]
+
+    assert are_joined((*thick, *rooms))
+
+
 def test_lines_of_one_name_are_joined_and_areas_are_no_names():
     texts = (Text("Meeting", (25, 42), 3.0), Text("room", (25, 38), 3.0), Text("11.2 m²", (25, 34), 3.0))
 

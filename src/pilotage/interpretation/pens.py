@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import shapely
 
+from pilotage.interpretation.names import is_room
 from pilotage.interpretation.paint import Seen, parts_of
 from pilotage.interpretation.sheet import Role, Sheet
 
@@ -18,13 +19,24 @@ A hairline is not: files have it where no width was chosen.
 """
 
 
+BESIDE = 0.005
+"""A wall is drawn along the outline of a room if it comes this near, as a share of the drawing's diagonal."""
+
+WALLED = 0.5
+"""Where rooms have walls of their own, these run along more than this share of the outline of most rooms."""
+
+
 def by_style(
-    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role]
+    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role], solid: shapely.Geometry, diagonal: float
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls."""
+    """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
+
+    The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
+    """
     thin = THIN * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
+    rooms: list[shapely.Geometry] = []
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
@@ -32,9 +44,20 @@ def by_style(
             is_thin = 0.0 < pen.width < thin
             is_named = named.get(mark.number) is Role.WALL
             is_marginal = pen.dashed or (not is_named and (is_colored or is_thin))
-            (marginal if is_marginal else main).append(mark.line)
+            is_outline = is_room(sheet.marks[mark.number].names[-1:])
+            (rooms if is_marginal and is_outline else marginal if is_marginal else main).append(mark.line)
+    (marginal if are_walled(rooms, [*main, solid], BESIDE * diagonal) else main).extend(rooms)
     black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
     return shapely.multilinestrings(black), shapely.multilinestrings(other)
+
+
+def are_walled(rooms: list[shapely.Geometry], walls: list[shapely.Geometry], reach: float) -> bool:
+    """Tell whether walls run along the outlines of most rooms."""
+    if not rooms:
+        return False
+    beside = shapely.union_all(shapely.buffer(parts_of(np.array(walls, dtype=object)), reach, quad_segs=2))
+    shares = shapely.length(shapely.intersection(rooms, beside)) / shapely.length(rooms)
+    return float(np.median(shares)) > WALLED
 
 
 def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> float:

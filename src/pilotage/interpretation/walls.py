@@ -193,7 +193,7 @@ def find_walls(
     drawn = Drawn(
         solid,
         frozenset(colors),
-        *by_style(seen, sheet, named),
+        *by_style(seen, sheet, named, solid, diagonal),
         panels,
         glass,
         called,
