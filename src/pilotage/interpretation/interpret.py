@@ -19,6 +19,7 @@ from pilotage.interpretation.paint import Seen, polylines_of
 from pilotage.interpretation.painted import find_painted_rooms, outlined
 from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
+from pilotage.interpretation.patches import opened_bridges
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.view import View, common_names, view_of
 from pilotage.interpretation.walls import Walls, opened_shut, rings_of
@@ -146,6 +147,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
             *(Polyline(np.array([door.hinge, door.latch])) for door in parts.doors),
             *opened_bars(parts.bars),
             *opened_halves(parts.halves),
+            *opened_bridges(parts.bridges),
             *opened_dashed(sheet, sorted(parts.dashed)),
             *opened_shut(parts.walls.shut),
         ),
@@ -164,6 +166,7 @@ def evidence_of(view: View, parts: Parts, painted: Sequence[int]) -> Evidence:
             **dict.fromkeys(painted, Meaning(Role.WALL, "painted as a room; its edge is the wall")),
             **dict.fromkeys(parts.dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
             **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in parts.halves},
+            **{bridge.number: Meaning(Role.DOOR, "a patch from box to box") for bridge in parts.bridges},
             **dict.fromkeys(parts.areas, Meaning(Role.IGNORE, "the outline of a room, along its walls")),
             **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),
             **dict.fromkeys(parts.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),

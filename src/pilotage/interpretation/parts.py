@@ -14,6 +14,7 @@ from pilotage.interpretation.doors import Door, find_doors, without_doors
 from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.halves import Half, find_halves, without_halves
 from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.patches import Bridge, find_bridges, find_patched, without_bridges
 from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.signs import find_signs
 from pilotage.interpretation.stairs import find_stairs
@@ -39,9 +40,10 @@ class Parts:
     doors: Sequence[Door]  # leaf and arc
     bars: Sequence[Bar]  # patches across a wall
     halves: Sequence[Half]  # gaps in one of two lines
+    bridges: Sequence[Bridge]  # lines upon patches, from one box to the next
     dashed: AbstractSet[int]  # dashed lines from wall to wall
     axes: AbstractSet[int]  # dashed lines through the building and beyond
-    left: Sequence[Seen]  # `built` without doors, bars and halves
+    left: Sequence[Seen]  # `built` without doors, bars, halves and bridges
     lines: Sequence[Seen]  # of these, what may be a wall
     walls: Walls
     stairs: shapely.Geometry
@@ -62,9 +64,12 @@ def take_apart(view: View) -> Parts:
     built = [mark for mark in built if mark.number not in areas]
     roles = {number: role for number, (role, _) in view.guessed.items()}
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
-    bars = [] if doors else find_bars(sheet, built, called_doors, diagonal)
+    patched = find_patched(sheet, view.drawn, built, ground, diagonal)
+    bars = [] if doors else find_bars(sheet, built, called_doors | patched.keys(), diagonal)
+    bridges = find_bridges(sheet, built, patched, diagonal)
     halves = find_halves(sheet, view.drawn, built, ground, diagonal)
     left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
+    left = without_bridges(left, bridges, diagonal)
     lines = view.all_but(NO_WALLS, left)
     dashed = find_dashed(sheet, lines, view.guessed, diagonal)
     lines = [mark for mark in lines if mark.number not in dashed]
@@ -79,7 +84,21 @@ def take_apart(view: View) -> Parts:
     )
     stairs = find_stairs([mark for mark in left if view.role(mark) is Role.STAIRS], sheet, diagonal)
     return Parts(
-        measuring, signs, written, areas, built, doors, bars, halves, dashed, axes, left, lines, walls, stairs
+        measuring,
+        signs,
+        written,
+        areas,
+        built,
+        doors,
+        bars,
+        halves,
+        bridges,
+        dashed,
+        axes,
+        left,
+        lines,
+        walls,
+        stairs,
     )
 
 

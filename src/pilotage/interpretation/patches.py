@@ -1,0 +1,127 @@
+"""Find lines that are drawn upon a patch: a wider stroke in the color of the ground that erases a wall."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from pilotage.geometry import Array, Polyline
+from pilotage.interpretation.bars import NEAR, SIZES, Bar, goes_on
+from pilotage.interpretation.paint import Seen, parts_of
+from pilotage.interpretation.paper import FAINT, difference
+from pilotage.interpretation.segments import segments_of
+from pilotage.interpretation.sheet import Color, Mark, Sheet
+
+WIDER = 2.0
+"""A patch is at least so many times as wide as the line upon it; else it is the light edge of the line."""
+
+LEAST = 0.015
+"""A doorway between two boxes is opened at least so wide, as a share of the drawing's diagonal: a gap of less
+may be a slip of the pen, a patch is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bridge:
+    """A doorway from one box to the next, that a patch and a line along it draw."""
+
+    number: int  # of the line, in its sheet
+    ends: Array  # (2, 2), of the line
+    width: float  # of the doorway [drawing units]
+
+    @property
+    def openings(self) -> Array:
+        """The doorway at the one box and at the other, (2, 2, 2): two ends of each."""
+        along = self.ends[1] - self.ends[0]
+        across = np.array([-along[1], along[0]]) / np.hypot(*along) * self.width / 2.0
+        return np.stack([self.ends - across, self.ends + across], axis=1)
+
+
+def find_patched(
+    sheet: Sheet, drawn: Sequence[int], seen: Sequence[Seen], ground: Color, diagonal: float
+) -> dict[int, float]:
+    """Find lines with the two ends of a patch below them, that is wider, and how wide it is.
+
+    They are signs of doors, or of windows.
+    """
+    patches = [
+        (number, mark.pen.width, ends_of(mark))
+        for number in drawn
+        if (mark := sheet.marks[number]).pen is not None
+        and is_straight(mark, diagonal)
+        and difference(mark.pen.color, ground) < FAINT
+    ]
+    if not patches:
+        return {}
+    numbers, widths, ends = (np.array(column) for column in zip(*patches, strict=True))
+    found = {}
+    for number in (mark.number for mark in seen):
+        mark = sheet.marks[number]
+        if mark.pen is not None and is_straight(mark, diagonal):
+            own = ends_of(mark)
+            apart = np.minimum(*(np.abs(ends - way).max(axis=(1, 2)) for way in (own, own[::-1])))
+            below = (numbers < number) & (widths >= WIDER * mark.pen.width) & (apart <= NEAR * diagonal)
+            if below.any():
+                found[number] = float(widths[below].max())
+    return found
+
+
+def find_bridges(
+    sheet: Sheet, seen: Sequence[Seen], patched: Mapping[int, float], diagonal: float
+) -> list[Bridge]:
+    """Find the lines upon patches that lead from one box to the next, and lie along no wall.
+
+    Where they end, the patch has erased the outlines of both boxes.
+    """
+    if not patched:
+        return []
+    others = segments_of([mark for mark in seen if mark.number not in patched])
+    found = []
+    for number, width in patched.items():
+        ends = ends_of(sheet.marks[number])
+        near = [others.tree.query_nearest(point, return_distance=True)[1] for point in shapely.points(ends)]
+        reach = width / 2.0 + NEAR * diagonal
+        leads = all(len(distances) and distances[0] <= reach for distances in near)
+        if leads and not goes_on(Bar(-1, ends, 0.0), others, diagonal):
+            found.append(Bridge(number, ends, max(width, LEAST * diagonal)))
+    return found
+
+
+def without_bridges(seen: Sequence[Seen], bridges: Sequence[Bridge], diagonal: float) -> list[Seen]:
+    """Open both boxes at each doorway, and put its two sides in place of the line through it."""
+    if not bridges:
+        return list(seen)
+    openings = shapely.linestrings(np.concatenate([bridge.openings for bridge in bridges]))
+    cut = shapely.union_all(shapely.buffer(openings, NEAR * diagonal, cap_style="flat"))
+    shapely.prepare(cut)
+    sides = {
+        bridge.number: shapely.multilinestrings(shapely.linestrings(bridge.openings.swapaxes(0, 1)))
+        for bridge in bridges
+    }
+    left = []
+    for mark in seen:
+        if mark.number in sides:
+            left.append(Seen(mark.number, sides[mark.number], mark.area, False))
+        elif cut.intersects(mark.line):
+            line = shapely.multilinestrings(parts_of(shapely.difference(mark.line, cut)))
+            left.append(Seen(mark.number, line, mark.area, False))
+        else:
+            left.append(mark)
+    return left
+
+
+def opened_bridges(bridges: Sequence[Bridge]) -> tuple[Polyline, ...]:
+    """Return the openings between two boxes, halfway."""
+    return tuple(Polyline(bridge.openings.mean(axis=0)) for bridge in bridges)
+
+
+def is_straight(mark: Mark, diagonal: float) -> bool:
+    """Tell whether a mark is one straight line of the length of a door."""
+    if len(mark.outlines) != 1 or len(mark.outlines[0]) != 2:
+        return False
+    return SIZES[0] * diagonal <= mark.outlines[0].length <= SIZES[1] * diagonal
+
+
+def ends_of(mark: Mark) -> Array:
+    """Return the ends of a straight line, (2, 2)."""
+    return mark.outlines[0].vertices
