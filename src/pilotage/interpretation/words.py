@@ -29,7 +29,7 @@ UNITS = frozenset({
     "mm", "cm", "m", "ft", "feet", "in", "inch", "inches", "sq", "sqm", "sqft", "sf", "qm", "mq", "m²", "ft²",
     "㎡", "坪", "평", "畳", "帖", "米", "平米", "平方米", "metres", "meters", "x", "кв", "м", "м²",
     "см", "мм", "kvm", "area", "fläche", "superficie", "surface", "площадь", "面积",
-    "°c", "°f", "kw", "kwh", "lx", "ppm", "hpa",
+    "°c", "°f", "kw", "kwh", "lx", "lux", "ppm", "hpa",
 })  # fmt: skip
 """Words of areas and lengths, and of what dashboards show; with numbers and nothing else they are no name."""
 
@@ -46,6 +46,9 @@ TOKEN = re.compile(r"°?[^\W\d_]+|[\d²³]+|\S")
 
 COMMA = re.compile(r"\d+,\d+")
 """A number with a comma is a length, though without a unit; with a point it may be that of a room."""
+
+SPACED = 4
+"""So many letters that stand alone are a word that is spaced out or stacked; fewer may be names of places."""
 
 MARK_OF_NOTHING = re.compile(r"\W*")
 """Words without a letter or a digit."""
@@ -93,6 +96,17 @@ def role_of_words(words: str) -> tuple[Role, str]:
     return Role.LABEL, "words"
 
 
+def closed_up(words: str) -> str:
+    """Close up a word that is spaced out, or written a letter a line.
+
+    >>> closed_up("K I T C H E N"), closed_up("W C"), closed_up("Room A B C"), closed_up("1 2 3 4")
+    ('KITCHEN', 'W C', 'Room A B C', '1 2 3 4')
+    """
+    letters = words.split()
+    is_spaced = len(letters) >= SPACED and all(len(letter) == 1 and letter.isalpha() for letter in letters)
+    return "".join(letters) if is_spaced else words
+
+
 def find_names(texts: Sequence[tuple[int, Text]], walls: Sequence[Polyline] = ()) -> list[Name]:
     """Join the lines of each name, the upper first; words without a letter, and measures, are left out.
 
@@ -125,9 +139,8 @@ def find_names(texts: Sequence[tuple[int, Text]], walls: Sequence[Polyline] = ()
             chain.append(following[chain[-1]])
         lines = [kept[place][1] for place in chain]
         x, y = np.mean([line.position for line in lines], axis=0).tolist()
-        names.append(
-            Name(" ".join(line.text for line in lines), (x, y), tuple(kept[place][0] for place in chain))
-        )
+        words = closed_up(" ".join(line.text for line in lines))
+        names.append(Name(words, (x, y), tuple(kept[place][0] for place in chain)))
     heights = {number: text.height for number, text in kept}
     return sorted(names, key=lambda name: -max(heights[number] for number in name.members))
 
