@@ -114,3 +114,19 @@ def test_a_gap_in_one_of_two_lines_between_rooms_opens_both():
 
     assert {("a", "a"), ("a", "b"), ("c", "c"), ("c", "d")} == beyond
     assert "a gap in one of two lines" == interpret(Sheet((*rooms, *gaps))).meanings[-1].reason
+
+
+@pytest.mark.parametrize("drawn", [True, False])
+def test_a_room_that_opens_to_the_outside_by_a_wide_named_door_alone_is_a_room(drawn):
+    walls = [stroke((0, 28), (0, 0), (100, 0), (100, 80), (0, 80), (0, 42))]
+    walls += [
+        stroke((0, 27), (14, 27), (14, 43), (0, 43)),
+        stroke((60, 0), (60, 30)),
+        stroke((60, 38), (60, 80)),
+    ]
+    door = box(-1, 28, 1, 42, pen=Pen(RED, 0.1), names=("doors",))
+    words = [Text("bath", (7.0, 35.0), height=3.0)]
+
+    found = [cell.label for cell in graph_of((*walls, door) if drawn else walls, words).cells]
+
+    assert ("bath" in found) is drawn

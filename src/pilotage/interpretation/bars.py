@@ -98,6 +98,19 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
     return found
 
 
+def find_fronts(
+    sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], bars: Sequence[Bar], diagonal: float
+) -> list[Bar]:
+    """Find the bars that are named doors, stand in a gap of a wall and part no two rooms: front doors."""
+    known = {bar.place for bar in bars}
+    places = [place for place, mark in enumerate(seen) if mark.number in named and place not in known]
+    if not places:
+        return []
+    segments = segments_of([mark for mark in seen if mark.number not in named])
+    along = (found[-1] for place in places if len(found := bars_of(sheet, seen, place, diagonal)) in (1, 4))
+    return [bar for bar in along if goes_on(bar, segments, diagonal)]
+
+
 def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
     """Return the bar that a mark draws; of a square or a line all that it may be; none for all else."""
     mark = sheet.marks[seen[place].number]

@@ -145,7 +145,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
         photo_from_sketch=sheet.photo_from_sheet,
         doors=(
             *(Polyline(np.array([door.hinge, door.latch])) for door in parts.doors),
-            *opened_bars(parts.bars),
+            *opened_bars([*parts.bars, *parts.fronts]),
             *opened_halves(parts.halves),
             *opened_bridges(parts.bridges),
             *opened_dashed(sheet, sorted(parts.dashed)),

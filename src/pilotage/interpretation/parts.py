@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import shapely
 
 from pilotage.interpretation.areas import find_areas
-from pilotage.interpretation.bars import Bar, find_bars, without_bars
+from pilotage.interpretation.bars import Bar, find_bars, find_fronts, without_bars
 from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import Door, find_doors, without_doors
@@ -39,6 +39,7 @@ class Parts:
     built: Sequence[Seen]  # marks that are none of these
     doors: Sequence[Door]  # leaf and arc
     bars: Sequence[Bar]  # patches across a wall
+    fronts: Sequence[Bar]  # named doors in gaps of outer walls
     halves: Sequence[Half]  # gaps in one of two lines
     bridges: Sequence[Bridge]  # lines upon patches, from one box to the next
     dashed: AbstractSet[int]  # dashed lines from wall to wall
@@ -66,6 +67,7 @@ def take_apart(view: View) -> Parts:
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
     patched = find_patched(sheet, view.drawn, built, ground, diagonal)
     bars = [] if doors else find_bars(sheet, built, called_doors | patched.keys(), diagonal)
+    fronts = [] if doors else find_fronts(sheet, built, called_doors, bars, diagonal)
     bridges = find_bridges(sheet, built, patched, diagonal)
     halves = find_halves(sheet, view.drawn, built, ground, diagonal)
     left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
@@ -91,6 +93,7 @@ def take_apart(view: View) -> Parts:
         built,
         doors,
         bars,
+        fronts,
         halves,
         bridges,
         dashed,

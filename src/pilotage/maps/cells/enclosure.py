@@ -78,8 +78,8 @@ def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Op
 
 
 def has_front(space: FreeSpace, regions: NDArray[np.int64], number: int) -> bool:
-    """Tell whether a region opens to the outside by doors alone: far narrower than itself."""
-    widest = openings_of(space, regions, number).exits.max()
+    """Tell whether a region opens to the outside by doors alone: drawn ones, or far narrower than itself."""
+    widest = openings_of(space, regions, number).mouths.max(initial=0.0)
     return bool(widest < FRONT_DOOR * space.tessellation.reaches[regions == number].max())
 
 
