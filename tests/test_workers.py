@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -78,8 +79,11 @@ def test_a_cluster_can_be_asked_for_where_an_event_loop_runs(monkeypatch):
     async def notebook():
         Cluster("tcp://127.0.0.1:1")
 
-    with pytest.raises(ClusterError, match="there is no scheduler of Dask at"):
-        asyncio.run(notebook())
+    with (  # in a thread: a browser of other tests may have a loop that runs in this one
+        ThreadPoolExecutor(1) as thread,
+        pytest.raises(ClusterError, match="there is no scheduler of Dask at"),
+    ):
+        thread.submit(lambda: asyncio.run(notebook())).result()
 
 
 def connected(address):
