@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pilotage.errors import FileError
+from pilotage.findings import report
 from pilotage.interpretation import interpret
 from pilotage.io.indoor import read_geojson, read_imdf, read_osm
 from pilotage.maps.cells.decomposition import DecompositionSettings, divide
@@ -350,3 +351,17 @@ def test_maps_of_a_plane_have_doors_and_walls_in_units_of_their_own(tmp_path, un
 
     assert sheet.metres_per_unit is None
     assert joined(sheet) == {frozenset("ab")}
+
+
+def test_findings_ask_for_doors_in_the_terms_of_the_file(tmp_path):
+    rooms = (feature(BOX, indoor="room", name="a"), feature(NEXT, indoor="room", name="b"))
+    map_file = tmp_path / "map.osm"
+    nodes = [(k, x, y, "") for k, (x, y) in enumerate((*BOX[:4], *NEXT[1:3]))]
+    room = '<tag k="indoor" v="room"/>'
+    map_file.write_text(osm(nodes, [((0, 1, 2, 3, 0), room), ((1, 4, 5, 2, 1), room)]))
+
+    for sheet, words in ((read(tmp_path, *rooms), "'opening'"), (read_osm(map_file), "door=yes")):
+        understood = interpret(sheet)
+        found = report(understood.sketch, understood).findings[0]
+        assert "no-doors" == found.kind
+        assert words in found.advice

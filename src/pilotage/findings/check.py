@@ -23,7 +23,7 @@ from pilotage.findings.rooms import (
     find_stair_rooms,
 )
 from pilotage.findings.steps import find_drivable_stairs
-from pilotage.interpretation import Interpretation
+from pilotage.interpretation import GAP, Interpretation
 from pilotage.maps import (
     CellGraph,
     DecompositionSettings,
@@ -73,7 +73,7 @@ def report(
     try:
         division = divide(sketch, settings or DecompositionSettings())
     except NoDoorsError as error:
-        found = [no_doors(str(error))]
+        found = [no_doors(str(error), to_open_in(interpretation))]
         return Report(sketch, None, in_order(sketch, found), interpretation)
     except NotEnclosedError as error:
         found = [nothing_enclosed(sketch, str(error))]
@@ -90,14 +90,14 @@ def find_all(
     sketch: SchematicMap, division: Division, interpretation: Interpretation | None
 ) -> Iterator[Finding]:
     """Ask all checks."""
-    drawn = drawn_doors(interpretation)
+    drawn, to_open = drawn_doors(interpretation), to_open_in(interpretation)
     yield from find_bad_ends(sketch, division.graph)
     if len(division.graph.cells) > 1 and not division.graph.gateways:
-        yield from find_no_door(division.graph, drawn)
+        yield from find_no_door(division.graph, drawn, to_open)
     else:
-        yield from find_parts(division.graph)
-    yield from find_closed_areas(sketch, division)
-    yield from find_rooms_without_door(sketch, division.graph, drawn)
+        yield from find_parts(division.graph, to_open)
+    yield from find_closed_areas(sketch, division, to_open)
+    yield from find_rooms_without_door(sketch, division.graph, drawn, to_open)
     yield from find_stair_rooms(division.graph, sketch.zones)
     yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)
@@ -108,6 +108,11 @@ def find_all(
     yield from find_scale(sketch, division.graph)
     if interpretation is not None:
         yield from find_marks_left_out(interpretation)
+
+
+def to_open_in(interpretation: Interpretation | None) -> str:
+    """Say how one makes a door in a wall of such a drawing."""
+    return GAP if interpretation is None else interpretation.sheet.to_open
 
 
 def for_ends(

@@ -87,16 +87,16 @@ def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
         )
 
 
-def find_no_door(graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+def find_no_door(graph: CellGraph, drawn: Array, to_open: str) -> Iterator[Finding]:
     """Find that all rooms of several are closed boxes; `drawn` are places of drawn doors, (n, 2)."""
     first, *others = graph.cells
     mend = suggest_door(first.polygon, [other.polygon for other in others], graph, drawn)
-    yield no_doors(f"none of the {len(graph.cells)} rooms has a door to another", mend)
+    yield no_doors(f"none of the {len(graph.cells)} rooms has a door to another", to_open, mend)
 
 
-def no_doors(reason: str, mend: Mend | None = None) -> Finding:
+def no_doors(reason: str, to_open: str, mend: Mend | None = None) -> Finding:
     """Say that all rooms are closed boxes."""
-    advice = "erase a piece of wall wherever a door is"
+    advice = f"{to_open} in the wall wherever a door is"
     return Finding("no-doors", Severity.ERROR, reason, advice, mend=mend)
 
 

@@ -45,11 +45,10 @@ LEAST_DOOR = 0.4
 FURNITURE = 0.15
 """What has no name and is smaller than this share of the median room is probably furniture or a void."""
 
-DOOR_ADVICE = "leave a gap in its wall where the door is"
-VOID_ADVICE = "if it is furniture or a void, nothing is to be done; if it is a room, " + DOOR_ADVICE
 
-
-def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array) -> Iterator[Finding]:
+def find_rooms_without_door(
+    sketch: SchematicMap, graph: CellGraph, drawn: Array, to_open: str
+) -> Iterator[Finding]:
     """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2).
 
     Where there is none at all, `find_no_door` says so of all, and only those that open outwards are told.
@@ -62,13 +61,13 @@ def find_rooms_without_door(sketch: SchematicMap, graph: CellGraph, drawn: Array
     for cell in rooms:
         others = [other.polygon for other in graph.cells if other is not cell]
         mend = suggest_door(cell.polygon, others, graph, drawn)
-        text, advice = f"no door leads into {named(cell)}", DOOR_ADVICE
+        text, advice = f"no door leads into {named(cell)}", f"{to_open} in its wall where the door is"
         is_void = not cell.label and cell.polygon.area < FURNITURE * usual
         if is_void:
-            advice = VOID_ADVICE
+            advice = f"if it is furniture or a void, nothing is to be done; if it is a room, {advice}"
         elif is_open(cell.polygon.exterior, strokes, LEAST_DOOR * door_width(graph), ALONG * graph.diameter):
             text += ", except from outside of what is drawn"
-            advice = "draw the walls around the place where it leads, or leave a gap in another wall"
+            advice = f"draw the walls around the place where it leads, or {to_open} in another wall"
         elif not graph.gateways:
             continue
         severity = Severity.NOTE if is_void else Severity.WARNING
@@ -92,7 +91,7 @@ def drawn_doors(interpretation: Interpretation | None) -> Array:
     return np.vstack([NOWHERE, *(vertices[[0, -1]] for vertices in doors)])
 
 
-def find_closed_areas(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
+def find_closed_areas(sketch: SchematicMap, division: Division, to_open: str) -> Iterator[Finding]:
     """Find what is enclosed and still no cell: taken for solid, as no door leads into it, or for outdoors."""
     graph = division.graph
     strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
@@ -113,13 +112,13 @@ def find_closed_areas(sketch: SchematicMap, division: Division) -> Iterator[Find
             advice = "if a robot may drive there, draw a line where it ends"
         else:
             kind, why = "closed-area", "closed on all sides and taken for solid"
-            advice, mend = "if it is a room, leave a gap where its door is", suggest_door(area, rooms, graph)
+            advice, mend = f"if it is a room, {to_open} where its door is", suggest_door(area, rooms, graph)
         severity = Severity.WARNING if names else Severity.NOTE
         where = float(inner.x), float(inner.y)
         yield Finding(kind, severity, f"{what} that is {why}", advice, where, (), mend)
 
 
-def find_parts(graph: CellGraph) -> Iterator[Finding]:
+def find_parts(graph: CellGraph, to_open: str) -> Iterator[Finding]:
     """Find cells that cannot be reached from the rest, drawings in pieces, and sheets of two buildings."""
     parts = connected_cells(graph)
     shapes = [shapely.union_all([graph.cell(name).polygon for name in part]) for part in parts]
@@ -156,7 +155,7 @@ def find_parts(graph: CellGraph) -> Iterator[Finding]:
                 "unreachable",
                 Severity.WARNING,
                 f"{listed} cannot be reached from the rest of the building",
-                "leave a gap where the door between them is",
+                f"{to_open} where the door between them is",
                 cells[0].center,
                 tuple(cell.cell_id for cell in cells),
                 suggest_door(

@@ -8,11 +8,12 @@ and why.
 from pilotage.interpretation.interpret import Interpretation, NoWallsError, interpret
 from pilotage.interpretation.meanings import Meaning
 from pilotage.interpretation.names import role_named, words_of
-from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation.sheet import BLACK, GAP, WHITE, Bounds, Color, Mark, Pen, Role, Sheet, Text
 from pilotage.interpretation.zones import ZONE_ROLES
 
 __all__ = [
     "BLACK",
+    "GAP",
     "WHITE",
     "ZONE_ROLES",
     "Bounds",

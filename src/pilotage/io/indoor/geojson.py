@@ -29,6 +29,9 @@ LEVEL_IDS = ("level_id", "floor_id")
 IMDF_FILES = ("unit", "opening", "fixture", "kiosk", "level")
 """Files of an IMDF archive that draw something, or name the levels."""
 
+TO_OPEN = "add a feature with the feature_type 'opening'"
+"""How one makes a door."""
+
 DAMAGED = (
     ValueError,
     TypeError,
@@ -102,7 +105,7 @@ def collections_sheet(collections: list[Json], path: Path, level: str | None) ->
         features = [as_room(feature) for feature in features]
     if kinds - {Kind.OTHER}:
         features = [feature for feature in features if feature.kind is not Kind.OTHER]
-    return floor_sheet(features, path, level)
+    return replace(floor_sheet(features, path, level), to_open=TO_OPEN)
 
 
 def as_room(feature: Feature) -> Feature:

@@ -1,6 +1,7 @@
 """Read OpenStreetMap XML with indoor tags (https://wiki.openstreetmap.org/wiki/Simple_Indoor_Tagging)."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -31,7 +32,7 @@ def read_osm(path: Path, level: str | None = None) -> Sheet:
         root = ET.fromstring(content)  # noqa: S314  # expat fetches nothing and limits the growth of entities
     except (ET.ParseError, ValueError, LookupError) as error:
         raise FileError(f"an OpenStreetMap file cannot be read ({str(error)[:100]})", path) from error
-    return floor_sheet(list(features_of(root)), path, level)
+    return replace(floor_sheet(list(features_of(root)), path, level), to_open="add a node with door=yes")
 
 
 def features_of(root: ET.Element) -> Iterator[Feature]:
