@@ -39,6 +39,7 @@ def kinds(sketch):
 
 GOOD = drawing(*CORRIDOR_AND_FOUR_ROOMS)
 DOOR_OF_BEN = ([(14, 5), (15, 5)],)
+DOOR_OF_DORA = ([(14, 7), (15, 7)],)
 DOORS_OF_THREE = (*DOOR_OF_BEN, [(4, 5), (5, 5)], [(4, 7), (5, 7)])
 
 
@@ -62,6 +63,18 @@ def test_rooms_that_are_closed_boxes_are_an_error_whether_they_have_names_or_not
     assert ("no-doors", Severity.ERROR) == (with_names[0].kind, with_names[0].severity)
     assert {"no-doors"} == {finding.kind for finding in with_names}
     assert MendKind.CUT is with_names[0].mend.kind
+
+
+def test_openings_between_pieces_of_a_corridor_are_no_doors_of_the_named_rooms():
+    halves = ([(10, 5), (10, 5.5)], [(10, 7), (10, 6.5)])
+    closed = (*CORRIDOR_AND_FOUR_ROOMS, *DOOR_OF_DORA, *DOORS_OF_THREE, *halves)
+    found = kinds(drawing(*closed, labels=NAMES[:4]))
+    joined = kinds(drawing(*CORRIDOR_AND_FOUR_ROOMS, *DOORS_OF_THREE, *halves, labels=NAMES))
+
+    assert {"no-doors"} == set(found)
+    assert "none of the 4 rooms with a name has a door to another" == found["no-doors"].text
+    assert MendKind.CUT is found["no-doors"].mend.kind
+    assert "in-pieces" in joined
 
 
 def test_a_room_whose_door_was_forgotten_is_found_and_a_door_suggested():

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
+from pilotage.findings.doors import has_doors
 from pilotage.findings.finding import Finding, Point, Severity
 from pilotage.findings.gaps import find_closed_gaps, find_idle_arrows, find_odd_gateways
 from pilotage.findings.page import (
@@ -92,7 +93,7 @@ def find_all(
     """Ask all checks."""
     drawn, to_open = drawn_doors(interpretation), to_open_in(interpretation)
     yield from find_bad_ends(sketch, division.graph)
-    if len(division.graph.cells) > 1 and not division.graph.gateways:
+    if len(division.graph.cells) > 1 and not has_doors(division.graph):
         yield from find_no_door(division.graph, drawn, to_open)
     else:
         yield from find_parts(division.graph, to_open)

@@ -1,4 +1,4 @@
-"""Suggest where a door could be cut into a room that has none."""
+"""Tell whether doors join rooms, and where one could be cut into a room that has none."""
 
 from itertools import pairwise
 
@@ -8,6 +8,7 @@ import shapely
 from pilotage.findings.finding import Mend, MendKind
 from pilotage.geometry import Array
 from pilotage.maps import CellGraph
+from pilotage.maps.routing.places import connected_cells
 
 WALLS = (0.004, 0.01, 0.02, 0.04)
 """Thicknesses of walls that are tried, as shares of the drawing's diameter."""
@@ -21,6 +22,9 @@ MOST_OF_WALL = 0.6
 NEAR = 1.5
 """A door that is drawn this near to a wall may lead through it, as a share of the usual door's width."""
 
+NAMED = 3
+"""Where so many rooms have a name, doors lead to these."""
+
 NOWHERE = np.empty((0, 2))
 
 
@@ -28,6 +32,18 @@ def door_width(graph: CellGraph) -> float:
     """Return the usual width of a door [drawing units]: the median of all gateways, if there are any."""
     widths = [gateway.width for gateway in graph.gateways]
     return float(np.median(widths)) if widths else DOOR * graph.diameter
+
+
+def has_doors(graph: CellGraph) -> bool:
+    """Tell whether doors join rooms: where several have a name, two of these.
+
+    A corridor without doors falls into pieces, and so does the space that boxes leave between them.
+    """
+    names = {cell.cell_id for cell in graph.cells if cell.label}
+    parts = connected_cells(graph)
+    if len(names) < NAMED or 2 * max(map(len, parts)) >= len(graph.cells):
+        return bool(graph.gateways)
+    return any(len(names & part) > 1 for part in parts)
 
 
 def suggest_door(

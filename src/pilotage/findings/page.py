@@ -89,9 +89,12 @@ def find_marks_left_out(interpretation: Interpretation) -> Iterator[Finding]:
 
 def find_no_door(graph: CellGraph, drawn: Array, to_open: str) -> Iterator[Finding]:
     """Find that all rooms of several are closed boxes; `drawn` are places of drawn doors, (n, 2)."""
-    first, *others = graph.cells
-    mend = suggest_door(first.polygon, [other.polygon for other in others], graph, drawn)
-    yield no_doors(f"none of the {len(graph.cells)} rooms has a door to another", to_open, mend)
+    first = min(graph.cells, key=lambda cell: len(graph.gateways_of(cell.cell_id)))
+    others = [cell.polygon for cell in graph.cells if cell is not first]
+    mend = suggest_door(first.polygon, others, graph, drawn)
+    count = sum(bool(cell.label) for cell in graph.cells)
+    rooms = f"{count} rooms with a name" if graph.gateways else f"{len(graph.cells)} rooms"
+    yield no_doors(f"none of the {rooms} has a door to another", to_open, mend)
 
 
 def no_doors(reason: str, to_open: str, mend: Mend | None = None) -> Finding:

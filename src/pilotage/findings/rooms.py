@@ -7,7 +7,7 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.findings.doors import NOWHERE, door_width, suggest_door
+from pilotage.findings.doors import NAMED, NOWHERE, door_width, has_doors, suggest_door
 from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
@@ -27,8 +27,8 @@ WHOLE, FEW = 0.6, 3
 SOLID = 0.005
 """A closed area of less than this share of all cells is not worth a word."""
 
-NAMED, UNNAMED = 3, 2.0
-"""Where so many rooms have a name, rooms without are pieces of others if they are so many times as many."""
+UNNAMED = 2.0
+"""Rooms without a name are pieces of others if they are so many times as many as those that have one."""
 
 KEPT_OUT = 0.8
 """A room is kept out if zones cover this share of it."""
@@ -57,6 +57,7 @@ def find_rooms_without_door(
     if len(graph.cells) == 1 or not rooms:
         return
     strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
+    joined = has_doors(graph)
     usual = float(np.median([cell.polygon.area for cell in graph.cells if cell not in rooms] or [0.0]))
     for cell in rooms:
         others = [other.polygon for other in graph.cells if other is not cell]
@@ -68,7 +69,7 @@ def find_rooms_without_door(
         elif is_open(cell.polygon.exterior, strokes, LEAST_DOOR * door_width(graph), ALONG * graph.diameter):
             text += ", except from outside of what is drawn"
             advice = f"draw the walls around the place where it leads, or {to_open} in another wall"
-        elif not graph.gateways:
+        elif not joined:
             continue
         severity = Severity.NOTE if is_void else Severity.WARNING
         yield Finding("room-without-door", severity, text, advice, cell.center, (cell.cell_id,), mend)
