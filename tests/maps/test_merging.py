@@ -38,6 +38,16 @@ def parted(lines):
     return [part for line in lines for part in (line[:2], line[2:])]
 
 
+def test_the_space_in_the_wall_of_a_front_door_is_of_its_room_unless_it_has_a_name():
+    free = [(0, 0, 6, 5), (6.5, 0, 12, 5), (6, 2, 6.5, 3), (2, 5, 3, 5.5)]
+    walls = shapely.box(-0.5, -0.5, 12.5, 5.5) - shapely.union_all([shapely.box(*sides) for sides in free])
+    porch = within(outline_of(walls), (Label("Porch", (2.5, 5.25)),))
+
+    assert 2 == len(within(outline_of(walls)).cells)
+    assert 3 == len(porch.cells)
+    assert "porch" in porch.index_from_id
+
+
 def test_two_doors_of_one_room_are_no_wide_opening_between_lines():
     rooms = [(0, 0), (20, 0), (20, 9), (0, 9), (0, 0)]
     wall = [[(0, 4), (3, 4)], [(5, 4), (15, 4)], [(17, 4), (20, 4)]]
@@ -105,7 +115,12 @@ def thick(free, labels=()):
     """A plan of thick walls about what is free: rectangles, by left, bottom, right and top."""
     space = shapely.union_all([shapely.box(*sides) for sides in free])
     outer = shapely.box(*space.bounds).buffer(0.5, join_style="mitre")
-    rings = [outer.exterior, *(ring for part in shapely.get_parts(space) for ring in outline_of(part))]
+    return within(
+        [outer.exterior, *(ring for part in shapely.get_parts(space) for ring in outline_of(part))], labels
+    )
+
+
+def within(rings, labels=()):
     lines = tuple(Polyline(shapely.get_coordinates(ring)[:-1], closed=True) for ring in rings)
     return decompose(SchematicMap(lines, solids=lines, labels=labels), DecompositionSettings())
 
@@ -124,6 +139,16 @@ def test_a_corridor_that_widens_and_turns_is_one_cell_between_thick_walls():
 
     assert 4 == len(graph.cells)
     assert 3 == max(len(graph.gateways_of(cell.cell_id)) for cell in graph.cells)
+
+
+def test_the_space_in_the_wall_of_a_front_door_is_of_its_room_unless_it_has_a_name():
+    free = [(0, 0, 6, 5), (6.5, 0, 12, 5), (6, 2, 6.5, 3), (2, 5, 3, 5.5)]
+    walls = shapely.box(-0.5, -0.5, 12.5, 5.5) - shapely.union_all([shapely.box(*sides) for sides in free])
+    porch = within(outline_of(walls), (Label("Porch", (2.5, 5.25)),))
+
+    assert 2 == len(within(outline_of(walls)).cells)
+    assert 3 == len(porch.cells)
+    assert "porch" in porch.index_from_id
 
 
 def test_two_doors_of_one_room_are_no_wide_opening_but_gaps_between_columns_are():

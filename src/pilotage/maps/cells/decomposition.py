@@ -67,7 +67,7 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
         solids_known=bool(sketch.solids),
     )
     if sketch.solids:
-        regions = join_thresholds(space.tessellation, regions)
+        regions = join_thresholds(space.tessellation, regions, named)
         regions = join_corridors(space.tessellation, regions, named, space.drawn)
     titled = holds_any(space.tessellation, [*written, *sketch.unread])
     regions = drop_outdoors(space, regions, titled, solids_known=bool(sketch.solids))

@@ -14,19 +14,28 @@ CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
 less than so many doors wide."""
 
 
-def join_thresholds(tessellation: Tessellation, regions: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it."""
+def join_thresholds(
+    tessellation: Tessellation, regions: NDArray[np.int64], named: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    """Join the space within the thickness of a wall, under a door's lintel, to the larger room beside it.
+
+    That of a door to the outside goes to its room, unless a name stands in it: `named` tells in which pieces
+    (p,) one does.
+    """
     joined = regions.copy()
     areas = region_areas(tessellation, regions)
     sides = regions[tessellation.sides]
     for number in np.flatnonzero(areas > 0.0):
-        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1]) & (sides >= 0).all(axis=1)
+        members = regions == number
+        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
         widths = tessellation.widths[beside]
         others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
         if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
             continue
-        if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[regions == number].max():
-            joined[regions == number] = others[np.argmax(areas[others])]
+        if others.min() < 0 and named[members].any():
+            continue
+        if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[members].max():
+            joined[members] = max(others, key=lambda other: areas[other] if other >= 0 else -1.0)
     return joined
 
 
