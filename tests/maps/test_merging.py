@@ -48,6 +48,14 @@ def test_the_space_in_the_wall_of_a_front_door_is_of_its_room_unless_it_has_a_na
     assert "porch" in porch.index_from_id
 
 
+def test_a_niche_in_a_thick_wall_is_of_its_room_unless_it_has_a_name():
+    free = [(0, 0, 12, 8), (2, 8, 3.5, 8.6), (6, 8, 8, 9.5)]
+    alcove = (Label("Alcove", (2.7, 8.3)),)
+
+    assert 2 == len(thick(free).cells)
+    assert 3 == len(thick(free, alcove).cells)
+
+
 def test_two_doors_of_one_room_are_no_wide_opening_between_lines():
     rooms = [(0, 0), (20, 0), (20, 9), (0, 9), (0, 0)]
     wall = [[(0, 4), (3, 4)], [(5, 4), (15, 4)], [(17, 4), (20, 4)]]
@@ -149,6 +157,14 @@ def test_the_space_in_the_wall_of_a_front_door_is_of_its_room_unless_it_has_a_na
     assert 2 == len(within(outline_of(walls)).cells)
     assert 3 == len(porch.cells)
     assert "porch" in porch.index_from_id
+
+
+def test_a_niche_in_a_thick_wall_is_of_its_room_unless_it_has_a_name():
+    free = [(0, 0, 12, 8), (2, 8, 3.5, 8.6), (6, 8, 8, 9.5)]
+    alcove = (Label("Alcove", (2.7, 8.3)),)
+
+    assert 2 == len(thick(free).cells)
+    assert 3 == len(thick(free, alcove).cells)
 
 
 def test_two_doors_of_one_room_are_no_wide_opening_but_gaps_between_columns_are():

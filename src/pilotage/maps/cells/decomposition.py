@@ -14,10 +14,11 @@ from pilotage.maps.cells.free_space import (
     FreeSpace,
     NotEnclosedError,
     free_space,
+    thickness_of,
 )
 from pilotage.maps.cells.graph import Cell, CellGraph, CellSize, Gateway
 from pilotage.maps.cells.identity import identify
-from pilotage.maps.cells.joining import drop_small, join_corridors, join_thresholds
+from pilotage.maps.cells.joining import drop_small, join_corridors, join_niches, join_thresholds
 from pilotage.maps.cells.merging import merge_pieces
 from pilotage.maps.cells.tessellation import Tessellation
 from pilotage.maps.schematic import Label, SchematicMap, diameter_of
@@ -69,6 +70,8 @@ def divide(sketch: SchematicMap, settings: DecompositionSettings) -> Division:
     if sketch.solids:
         regions = join_thresholds(space.tessellation, regions, named)
         regions = join_corridors(space.tessellation, regions, named, space.drawn)
+        thickness = thickness_of(sketch.solids)
+        regions = join_niches(space.tessellation, regions, named, space.drawn, thickness)
     titled = holds_any(space.tessellation, [*written, *sketch.unread])
     regions = drop_outdoors(space, regions, titled, solids_known=bool(sketch.solids))
     regions = drop_small(space.tessellation, regions, named, settings.min_cell_area)

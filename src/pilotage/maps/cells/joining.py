@@ -9,6 +9,9 @@ from pilotage.maps.cells.tessellation import Tessellation
 THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
 """A threshold is no deeper than its doors are wide, and these are this share of its own width."""
 
+NICHE, NICHE_WALLS = 0.5, 2.0
+"""A niche is at most this share of its width deep, and no deeper than so many walls are thick."""
+
 CORRIDOR_MOUTH, CORRIDOR_WIDTH = 2.3, 2.5
 """A corridor leads on where its wider side is less than so many times as wide as the opening, and the opening
 less than so many doors wide."""
@@ -36,6 +39,31 @@ def join_thresholds(
             continue
         if widths.min() >= THRESHOLD_WIDTH * tessellation.reaches[members].max():
             joined[members] = max(others, key=lambda other: areas[other] if other >= 0 else -1.0)
+    return joined
+
+
+def join_niches(
+    tessellation: Tessellation,
+    regions: NDArray[np.int64],
+    named: NDArray[np.bool_],
+    drawn: NDArray[np.bool_],
+    thickness: float,
+) -> NDArray[np.int64]:
+    """Join niches in walls of this thickness, without a door or a name, to the rooms that they open to.
+
+    `named` tells in which pieces (p,) a name stands, and `drawn` which chords (n,) are at doors that are drawn.
+    """
+    joined = regions.copy()
+    areas = region_areas(tessellation, regions)
+    sides = regions[tessellation.sides]
+    for number in np.setdiff1d(np.flatnonzero(areas > 0.0), regions[named]):
+        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
+        rooms = np.setdiff1d(sides[beside], number)
+        if len(rooms) != 1 or rooms[0] < 0 or drawn[beside].any():
+            continue
+        width = float(tessellation.widths[beside].max())
+        if areas[number] <= width * min(NICHE * width, NICHE_WALLS * thickness):
+            joined[regions == number] = rooms[0]
     return joined
 
 
