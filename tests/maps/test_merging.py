@@ -149,24 +149,6 @@ def test_a_corridor_that_widens_and_turns_is_one_cell_between_thick_walls():
     assert 3 == max(len(graph.gateways_of(cell.cell_id)) for cell in graph.cells)
 
 
-def test_the_space_in_the_wall_of_a_front_door_is_of_its_room_unless_it_has_a_name():
-    free = [(0, 0, 6, 5), (6.5, 0, 12, 5), (6, 2, 6.5, 3), (2, 5, 3, 5.5)]
-    walls = shapely.box(-0.5, -0.5, 12.5, 5.5) - shapely.union_all([shapely.box(*sides) for sides in free])
-    porch = within(outline_of(walls), (Label("Porch", (2.5, 5.25)),))
-
-    assert 2 == len(within(outline_of(walls)).cells)
-    assert 3 == len(porch.cells)
-    assert "porch" in porch.index_from_id
-
-
-def test_a_niche_in_a_thick_wall_is_of_its_room_unless_it_has_a_name():
-    free = [(0, 0, 12, 8), (2, 8, 3.5, 8.6), (6, 8, 8, 9.5)]
-    alcove = (Label("Alcove", (2.7, 8.3)),)
-
-    assert 2 == len(thick(free).cells)
-    assert 3 == len(thick(free, alcove).cells)
-
-
 def test_two_doors_of_one_room_are_no_wide_opening_but_gaps_between_columns_are():
     rooms = [(0, 0, 12, 2), (2, 2.5, 10, 5)]
     doors = [(3, 2, 4.2, 2.5), (7.8, 2, 9, 2.5)]

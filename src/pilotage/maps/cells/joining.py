@@ -51,7 +51,7 @@ def join_niches(
 ) -> NDArray[np.int64]:
     """Join niches in walls of this thickness, without a door or a name, to the rooms that they open to.
 
-    `named` tells in which pieces (p,) a name stands, and `drawn` which chords (n,) are at doors that are drawn.
+    `named` tells in which pieces (p,) a name stands, and `drawn` which chords (n,) are at drawn doors.
     """
     joined = regions.copy()
     areas = region_areas(tessellation, regions)
