@@ -26,6 +26,12 @@ class Borders:
     reaches: Array  # how wide each region is, indexed by its number
 
 
+def at_border(sides: NDArray[np.int64], number: int) -> NDArray[np.bool_]:
+    """Tell which chords lead out of a region, (n,); `sides` (n, 2) are the regions of both sides of each."""
+    led_out: NDArray[np.bool_] = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
+    return led_out
+
+
 def borders_of(tessellation: Tessellation, regions: NDArray[np.int64], drawn: NDArray[np.bool_]) -> Borders:
     """List the pairs of regions with openings between them.
 

@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from pilotage.maps.cells.borders import at_border
 from pilotage.maps.cells.free_space import FreeSpace
 
 YARD_MOUTH, YARD_SHARE = 0.8, 0.12
@@ -70,9 +71,9 @@ def drop_outdoors(
 def openings_of(space: FreeSpace, regions: NDArray[np.int64], number: int) -> Openings:
     """Measure what leads out of a region."""
     sides = regions[space.tessellation.sides]
-    at_border = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
-    exits = at_border & space.outside[space.tessellation.sides].any(axis=1)
-    doors = at_border & (sides >= 0).all(axis=1)
+    beside = at_border(sides, number)
+    exits = beside & space.outside[space.tessellation.sides].any(axis=1)
+    doors = beside & (sides >= 0).all(axis=1)
     widths = space.tessellation.widths
     return Openings(widths[exits], widths[exits & ~space.drawn], widths[doors])
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pilotage.maps.cells.borders import borders_of, region_areas
+from pilotage.maps.cells.borders import at_border, borders_of, region_areas
 from pilotage.maps.cells.tessellation import Tessellation
 
 THRESHOLD_DEPTH, THRESHOLD_WIDTH = 1.0, 0.7
@@ -28,9 +28,9 @@ def join_thresholds(
     joined = regions.copy()
     areas = region_areas(tessellation, regions)
     sides = regions[tessellation.sides]
-    for number in np.flatnonzero(areas > 0.0):
+    for number in np.flatnonzero(areas > 0.0).tolist():
         members = regions == number
-        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
+        beside = at_border(sides, number)
         widths = tessellation.widths[beside]
         others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
         if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
@@ -57,7 +57,7 @@ def join_niches(
     areas = region_areas(tessellation, regions)
     sides = regions[tessellation.sides]
     for number in np.setdiff1d(np.flatnonzero(areas > 0.0), regions[named]):
-        beside = (sides == number).any(axis=1) & (sides[:, 0] != sides[:, 1])
+        beside = at_border(sides, number)
         rooms = np.setdiff1d(sides[beside], number)
         if len(rooms) != 1 or rooms[0] < 0 or drawn[beside].any():
             continue
