@@ -63,7 +63,7 @@ def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> S
         raise FileError(f"an indoor map must have at most {MOST_MARKS:,} features", path)
     if not features:
         raise FileError("an indoor map needs at least one room, wall or line, found none", path)
-    shapes, metres = projected([feature.shape for feature in features])
+    shapes, metres_per_unit = projected([feature.shape for feature in features])
     names = level_names(features)
     chosen = choose_page(names, level, path, kind="level") if names else 0
     shown = [
@@ -72,16 +72,17 @@ def floor_sheet(features: Sequence[Feature], path: Path, level: str | None) -> S
         if not names or not feature.levels or names[chosen] in feature.levels
     ]
     builder = SheetBuilder(path)
-    unit = metres or unit_of(shapes)
-    openings = [opening_of(feature, shape, unit) for feature, shape in shown if feature.kind is Kind.OPENING]
-    draw_walls(builder, shown, openings, unit)
+    metre = 1.0 / metres_per_unit if metres_per_unit else guess_metre(shapes)
+    openings = [opening_of(feature, shape, metre) for feature, shape in shown if feature.kind is Kind.OPENING]
+    draw_walls(builder, shown, openings, metre)
     doors = shapely.STRtree(openings)
     for feature, shape in shown:
         with builder.surviving("damaged features"):
             is_entered = feature.kind in STEPPED and len(doors.query(shape, predicate="intersects")) > 0
-            draw(builder, feature, shape, unit, is_room=is_entered)
+            draw(builder, feature, shape, metre, is_room=is_entered)
     return builder.build(
-        metres_per_unit=metres, remarks=other_pages(names, chosen, path, kind="level") if names else ()
+        metres_per_unit=metres_per_unit,
+        remarks=other_pages(names, chosen, path, kind="level") if names else (),
     )
 
 
@@ -95,7 +96,7 @@ def level_names(features: Sequence[Feature]) -> list[str]:
 def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry], float | None]:
     """Carry longitudes and latitudes [deg] to a plane [m]; other coordinates stay as they are.
 
-    Returns their metres, None if these are not known, as well.
+    Returns the metres per unit as well, None if these are not known.
     """
     left, bottom, right, top = shapely.total_bounds(shapes)
     span = max(right - left, top - bottom)
@@ -114,29 +115,29 @@ def projected(shapes: Sequence[shapely.Geometry]) -> tuple[list[shapely.Geometry
     return moved, 1.0
 
 
-def unit_of(shapes: Sequence[shapely.Geometry]) -> float:
-    """Guess how many units of a plane make a metre: one, or many where it is of pixels or millimetres."""
+def guess_metre(shapes: Sequence[shapely.Geometry]) -> float:
+    """Guess how many units of a map make a metre: one, or many where they are pixels or millimetres."""
     left, bottom, right, top = shapely.total_bounds(shapes)
     span = float(max(right - left, top - bottom))
     return 1.0 if span <= WIDEST else span / USUAL
 
 
-def opening_of(feature: Feature, shape: shapely.Geometry, unit: float) -> shapely.Geometry:
-    """Return the area within which a door opens walls."""
+def opening_of(feature: Feature, shape: shapely.Geometry, metre: float) -> shapely.Geometry:
+    """Return the area within which a door opens walls; `metre` [map units] is how long one is."""
     if shape.geom_type == "Point":
-        return shapely.buffer(shape, (feature.width or DOOR_WIDTH) * unit / 2.0)
-    return shapely.buffer(shape, REACH * unit, cap_style="flat")
+        return shapely.buffer(shape, (feature.width or DOOR_WIDTH) * metre / 2.0)
+    return shapely.buffer(shape, REACH * metre, cap_style="flat")
 
 
 def draw_walls(
     builder: SheetBuilder,
     shown: Sequence[tuple[Feature, shapely.Geometry]],
     openings: Sequence[shapely.Geometry],
-    unit: float,
+    metre: float,
 ) -> None:
     """Draw the walls of all rooms, each once, open at doors and between corridors.
 
-    A door leads from jamb to jamb. A metre has so many units of the map.
+    A door leads from jamb to jamb. `metre` [map units] is how long one is.
     """
     walls = [lines_of(shape) for feature, shape in shown if feature.kind in WALLED]
     spaces = [shape for feature, shape in shown if feature.kind in SPACES]
@@ -144,7 +145,7 @@ def draw_walls(
     if not walls and not outer:
         outer = [lines_of(shape) for shape in spaces]
     passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
-    drawn = shapely.union_all([*walls, *outer], grid_size=WALL_GRID * unit)
+    drawn = shapely.union_all([*walls, *outer], grid_size=WALL_GRID * metre)
     drawn = shapely.difference(drawn, shared(passages))
     lines = np.array([part for part in parts_of(drawn) if part.geom_type == "LineString"], dtype=object)
     tree = shapely.STRtree(lines)
@@ -154,7 +155,7 @@ def draw_walls(
             if jambs.geom_type == "LineString":
                 builder.add_opening(outline_through(shapely.get_coordinates(jambs)[[0, -1]]))
     doors = shapely.union_all(openings)
-    for part in parts_of(shapely.difference(between(spaces, unit), doors)):
+    for part in parts_of(shapely.difference(between(spaces, metre), doors)):
         builder.add_mark(outlines_of_area(part), pen=None, fill=BLACK, names=("wall",), source="walls")
     drawn = shapely.difference(drawn, doors)
     for part in shapely.get_parts(shapely.line_merge(drawn)):
@@ -167,11 +168,11 @@ def draw_walls(
             )
 
 
-def between(spaces: Sequence[shapely.Geometry], unit: float) -> shapely.Geometry:
+def between(spaces: Sequence[shapely.Geometry], metre: float) -> shapely.Geometry:
     """Return what lies between rooms that are drawn by their inner faces: walls that have a thickness."""
     whole = shapely.union_all([space for space in spaces if space.geom_type in ("Polygon", "MultiPolygon")])
-    closed = grown(grown(whole, THICKEST * unit / 2.0), -THICKEST * unit / 2.0)
-    return grown(grown(shapely.difference(closed, whole), -WALL_GRID * unit / 2.0), WALL_GRID * unit / 2.0)
+    closed = grown(grown(whole, THICKEST * metre / 2.0), -THICKEST * metre / 2.0)
+    return grown(grown(shapely.difference(closed, whole), -WALL_GRID * metre / 2.0), WALL_GRID * metre / 2.0)
 
 
 def grown(shape: shapely.Geometry, distance: float) -> shapely.Geometry:
@@ -196,7 +197,7 @@ def lines_of(shape: shapely.Geometry) -> shapely.Geometry:
 
 
 def draw(
-    builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, unit: float, *, is_room: bool
+    builder: SheetBuilder, feature: Feature, shape: shapely.Geometry, metre: float, *, is_room: bool
 ) -> None:
     """Draw what is no wall, and write the name of a feature.
 
@@ -218,5 +219,5 @@ def draw(
             )
     if feature.name and feature.kind not in NAMELESS and not shape.is_empty:
         point = shapely.point_on_surface(shape)
-        place, height = (point.x, point.y), CAPITAL * unit
+        place, height = (point.x, point.y), CAPITAL * metre
         builder.add_text(Text(feature.name, place, height, 0.0, names, group, feature.source))
