@@ -47,7 +47,7 @@ VOCABULARY: Mapping[Role, str] = {
     " dør dører døre dörrar 门 ドア 扉 문",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
     " ventanas janela janelas raam ramen fönster ikkuna окно окна okno okna pencere pencereler ablak ablakok"
-    " prozor prozori vindu vinduer vindue vinduer 窗 窓 창문",
+    " prozor prozori vindu vindue vinduer 窗 窓 창문",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
     " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"

@@ -86,22 +86,22 @@ def take_apart(view: View) -> Parts:
     )
     stairs = find_stairs([mark for mark in left if view.role(mark) is Role.STAIRS], sheet, diagonal)
     return Parts(
-        measuring,
-        signs,
-        written,
-        areas,
-        built,
-        doors,
-        bars,
-        fronts,
-        halves,
-        bridges,
-        dashed,
-        axes,
-        left,
-        lines,
-        walls,
-        stairs,
+        measuring=measuring,
+        signs=signs,
+        written=written,
+        areas=areas,
+        built=built,
+        doors=doors,
+        bars=bars,
+        fronts=fronts,
+        halves=halves,
+        bridges=bridges,
+        dashed=dashed,
+        axes=axes,
+        left=left,
+        lines=lines,
+        walls=walls,
+        stairs=stairs,
     )
 
 
