@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Choose drawings and the number of kidnaps."""
     add_drawings(parser, BUILDINGS, HANDS)
     parser.add_argument(
-        "--kidnaps", type=positive, default=10, help="for each drawing (default: %(default)s)"
+        "--kidnaps", type=positive, default=30, help="for each drawing (default: %(default)s)"
     )
     parser.add_argument(
         "--episodes", type=positive, default=EPISODES, help="without kidnap (default: %(default)s)"

@@ -10,9 +10,10 @@ import pytest
 from buildings import coarse, flat, readings_of, walk
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Similarity2
-from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings
+from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings, particle_filter
 from pilotage.localization.global_search import global_search
 from pilotage.localization.keyframes import append_keyframe
+from pilotage.localization.localizer import SETTLED
 from pilotage.localization.observation import observe
 from pilotage.localization.particle_filter import Posterior, log_birth_factor
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
@@ -260,14 +261,41 @@ def test_a_search_of_the_whole_drawing_finds_the_place(atlas):
     assert 0.0 < found.log_mass  # it explains more than any building does
 
 
-def test_a_birth_is_weighed_against_what_the_tracks_explained_after_the_first_keyframe_of_the_window():
-    window = append_keyframe((), observe(readings_of(PATH)[0][0], (), Pose2.identity()))
+def test_a_birth_is_weighed_against_what_the_tracks_explained_after_the_first_searched_keyframe():
+    readings = readings_of(PATH)
+    window = append_keyframe((), observe(readings[0][0], (), Pose2.identity()))
+    window = append_keyframe(window, observe(readings[1][0], (), Pose2(1.0, 0.0, 0.0)))
     before = Posterior(Tracks((), 0.0))
-    first = before.with_evidence(window, 2.0)
+    first = before.with_evidence(window[:1], 2.0)
     second = first.with_evidence(window, 0.5)
-    factors = [log_birth_factor(one, window[-1].travel, SMALL.tracks) for one in (before, first, second)]
+    factors = [log_birth_factor(one, window, SMALL.tracks) for one in (before, first, second)]
 
     assert [0.0, 0.0, -0.5] == pytest.approx([factor - factors[0] for factor in factors])
+    assert factors[0] == log_birth_factor(second, window[1:], SMALL.tracks)
+
+
+def test_every_other_search_looks_back_half_as_far_while_a_settled_robot_may_have_been_carried(
+    atlas, monkeypatch
+):
+    looked_back, settled = [], []
+
+    def search(window, model, *given):
+        if model.atlas is atlas:
+            looked_back.append(window[-1].travel - window[0].travel)
+            settled.append(was_settled)
+        return global_search(window, model, *given)
+
+    monkeypatch.setattr(particle_filter, "global_search", search)
+    localizer, was_settled = Localizer(atlas, SMALL, seed=0), False
+    for reading in readings_of(PATH):
+        was_settled |= localizer.update(*reading).probability >= SETTLED
+    lost = [length for length, known in zip(looked_back, settled, strict=True) if not known]
+    found = [length for length, known in zip(looked_back, settled, strict=True) if known][-6:]
+
+    short, long = sorted((max(found[0::2]), max(found[1::2])))
+
+    assert 5.0 < max(lost) <= 10.0
+    assert 3.0 < short <= 5.0 < long <= 10.0
 
 
 @pytest.mark.parametrize(

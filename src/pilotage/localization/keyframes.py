@@ -45,6 +45,11 @@ def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Ke
     return (*kept, Keyframe(seen.scan, seen.corners, odom_from_base, travel, novelty))
 
 
+def newest(window: tuple[Keyframe, ...], length: float) -> tuple[Keyframe, ...]:
+    """Return the keyframes of the last `length` [m] of travel."""
+    return tuple(one for one in window if window[-1].travel - one.travel <= length)
+
+
 def novelty_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...]) -> float:
     """Return the share of a scan of `view` [rad] from a pose that no keyframe of a window showed, [0..1].
 
