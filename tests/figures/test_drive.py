@@ -15,6 +15,7 @@ from pilotage.figures.trail import find_stretches
 from pilotage.figures.words import describe
 from pilotage.geometry import Polyline
 from pilotage.localization import Status
+from pilotage.maps import Label
 from pilotage.navigation import Behavior
 
 DRIVE = through_the_door()
@@ -93,6 +94,16 @@ def test_an_animation_has_its_frames_and_rests_on_the_last(tmp_path):
 
     assert round(DRIVE.times[-1] / LEAST_STEP) + 1 == len(durations)
     assert durations[0] < durations[-1]
+
+
+def test_an_animation_shows_names_in_scripts_that_no_font_has(tmp_path):
+    hieroglyph = "\U00013000"
+    sketch = replace(SKETCH, labels=(Label(hieroglyph, (1.0, 2.5)),))
+    end = replace(DRIVE.steps[-1], reason=f"'{hieroglyph}' is reached")
+    drive = replace(DRIVE, sketch=sketch, steps=(*DRIVE.steps[:-1], end))
+    animate(drive, tmp_path / "drive.gif")  # a warning would fail
+
+    assert hieroglyph in caption_of(drive, len(drive.steps) - 1)
 
 
 @pytest.mark.parametrize("seconds", [0.0, 0.1, 3.0, 99.9, 1800.0])

@@ -73,7 +73,9 @@ def render(drive: Drive, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
         MARGIN / figure.get_figwidth(), 0.14 / figure.get_figheight(), "", fontsize=9.0, color=style.INK,
         animated=True, parse_math=False,
     )  # fmt: skip
-    canvas.draw()
+    style.show_all_literally(figure)
+    with style.some_glyphs_missing():
+        canvas.draw()
     background = canvas.copy_from_bbox(figure.bbox)
     for k in chosen:
         believed.show(k)
@@ -82,7 +84,9 @@ def render(drive: Drive, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
         for artist in (*believed.artists, *true.artists):
             figure.draw_artist(artist)
         caption.set_text(caption_of(drive, k))
-        figure.draw_artist(caption)
+        style.show_literally(caption)
+        with style.some_glyphs_missing():
+            figure.draw_artist(caption)
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 

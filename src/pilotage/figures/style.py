@@ -3,6 +3,8 @@
 import logging
 import math
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
@@ -146,6 +148,21 @@ def show_literally(text: Text) -> None:
         text.set_fontfamily(installed_fonts())
 
 
+def show_all_literally(figure: Figure) -> None:
+    """Do so with all texts of a figure."""
+    for text in figure.findobj(Text):
+        assert isinstance(text, Text)
+        show_literally(text)
+
+
+@contextmanager
+def some_glyphs_missing() -> Iterator[None]:
+    """Draw without a warning for each letter of a script that no installed font has."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")
+        yield
+
+
 @lru_cache(maxsize=1)
 def installed_fonts() -> list[str]:
     """List the fonts that this system has, the usual one first."""
@@ -159,9 +176,6 @@ def installed_fonts() -> list[str]:
 def save(figure: Figure, path: Path | str) -> None:
     """Write a figure whole or not at all; the name's ending tells the format (png, svg, pdf)."""
     kind = format_of(path)
-    for text in figure.findobj(Text):
-        assert isinstance(text, Text)
-        show_literally(text)
-    with replacing(path) as beside, warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Glyph .* missing")  # a label in a script that the font lacks
+    show_all_literally(figure)
+    with replacing(path) as beside, some_glyphs_missing():
         figure.savefig(beside, format=kind, dpi=DPI)

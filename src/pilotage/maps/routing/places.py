@@ -70,8 +70,8 @@ def check_reachable(graph: CellGraph, goal: Point, start: Point | None = None) -
             raise RouteError(f"no way leads from cell {start_id} to cell {goal_id}: no gateways join them")
     elif around_goal != parts[0]:
         raise RouteError(
-            f"the goal lies in cell {goal_id}, to which no gateways lead from the largest part of the"
-            " drawing, say where the robot starts if it is not there"
+            f"no gateways lead from the largest part of the drawing to cell {goal_id}, where the goal lies;"
+            " say where the robot starts if it is not there"
         )
 
 
