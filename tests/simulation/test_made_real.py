@@ -1,6 +1,7 @@
 """Buildings made up from a drawing."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from buildings import coarse, flat
 from pilotage.geometry import Pose2
 from pilotage.maps import build_atlas
 from pilotage.simulation import StartError
-from pilotage.simulation.made_real import make_real
+from pilotage.simulation.made_real import MOST_PIECES, make_real
 from pilotage.simulation.proportions import Proportions
 
 ATLAS = build_atlas(flat(), coarse())
@@ -84,6 +85,16 @@ def test_equal_seeds_make_equal_buildings_and_severity_fills_them():
     assert made[1].world.start == made[2].world.start
     assert len(made[0].world.segments) < len(made[1].world.segments)
     assert () == made[0].world.people
+
+
+def test_a_building_of_kilometres_gets_no_more_furniture_than_a_large_one():
+    sketch = replace(ATLAS.sketch, metres_per_unit=50.0)
+    empty, made = (
+        make_real(replace(ATLAS, sketch=sketch), severity, np.random.default_rng(0)).world
+        for severity in (0.0, 0.1)
+    )
+
+    assert 0 < len(made.segments) - len(empty.segments) < 4 * MOST_PIECES
 
 
 def test_a_marked_start_is_where_the_robot_stands():

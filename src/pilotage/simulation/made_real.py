@@ -38,6 +38,8 @@ BEFORE_DOOR = 1.0
 """Distance [m] of furniture from gateways."""
 AREA_A_PIECE = 5.0
 """Area of a room [m²] that gets one piece of furniture at severity 1."""
+MOST_PIECES = 500
+"""Pieces of furniture in a building at severity 1, at most: in larger ones they stand farther apart."""
 DEPTH, LENGTH = (0.35, 0.8), (0.5, 1.8)
 """Least and greatest depth and length [m] of a piece of furniture."""
 AT_WALL, OFF_WALL = 0.7, (1.0, 3.0)
@@ -93,7 +95,9 @@ def make_real(
     kept_free = [proportions.world_from_sketch(np.array([place]))[0] for place in (goal, start) if place]
     rooms = [carried_cell(cell, proportions) for cell in graph.cells]
     rng_things, rng_doors, rng_people, rng_start = rng.spawn(4)
-    things = [piece for room in rooms for piece in furnish(room, openings, kept_free, severity, rng_things)]
+    area_a_piece = max(AREA_A_PIECE, sum(room.area for room in rooms) / MOST_PIECES)
+    rate = severity / area_a_piece
+    things = [piece for room in rooms for piece in furnish(room, openings, kept_free, rate, rng_things)]
     world = World(
         np.vstack([walls, *(outline_of(thing) for thing in things)]),
         doors=tuple(hang_doors(openings, severity, rng_doors)),
@@ -137,16 +141,19 @@ def furnish(
     room: shapely.Polygon,
     openings: Sequence[Array],
     kept_free: Sequence[Array],
-    severity: float,
+    rate: float,
     rng: np.random.Generator,
 ) -> list[shapely.Polygon]:
-    """Put furniture along the walls of a room, and some into it, so that a robot still gets everywhere."""
+    """Put furniture along the walls of a room, and some into it, so that a robot still gets everywhere.
+
+    The `rate` is how many pieces are tried for each square metre.
+    """
     pieces: list[shapely.Polygon] = []
     space = room.buffer(-ROBOT)
     least = LEAST_LEFT * space.area
     doors = shapely.union_all([shapely.LineString(opening) for opening in openings])
     places = shapely.multipoints(np.array(kept_free).reshape(-1, 2))
-    for _ in range(rng.poisson(severity * room.area / AREA_A_PIECE)):
+    for _ in range(rng.poisson(rate * room.area)):
         for _ in range(TRIES):
             piece = place_piece(room, rng)
             left = space.difference(piece.buffer(ROBOT))
