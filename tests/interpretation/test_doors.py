@@ -123,6 +123,16 @@ def test_a_leaf_that_leans_on_a_wall_is_no_opening(angles):
     assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[52, 5.5], [52, 17.5]]]
 
 
+def test_a_leaf_that_leans_on_a_wall_stands_open_though_the_outline_of_its_room_runs_along_the_opening():
+    walls = [box(*bounds, fill=BLACK) for bounds in [*OUTER, (48, 0, 52, 5.2), (48, 17.2, 52, 80)]]
+    room = box(52, 4, 96, 76, pen=PEN)
+    leaf, swing = stroke((52, 5.2), (64, 5.2)), arc((52, 5.2), 12, 0, 90)
+
+    sketch = interpret(Sheet((*walls, room, leaf, swing))).sketch
+
+    assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[52, 5.2], [52, 17.2]]]
+
+
 def test_a_leaf_that_is_drawn_in_the_gap_of_its_wall_is_shut():
     walls = [box(*bounds, fill=BLACK) for bounds in [*OUTER, (48, 0, 52, 64), (48, 76, 52, 80)]]
     leaf, swing = stroke((52, 76), (52, 64)), arc((52, 76), 12, -90, 0)

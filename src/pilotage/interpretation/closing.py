@@ -40,10 +40,13 @@ def is_shut(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segment
     """Tell whether the one leaf of a door is drawn in its wall; None if it is no matter, or may be both.
 
     It is, too, if it fills a gap between two ends of a wall and nothing lies before or behind the open door.
+    One that leans on a wall stands open.
     """
     if arc.sweep < AJAR or leaves.sum() != 1:
         return None
     leaf = int(np.argmax(leaves))
+    if leans(arc, arc.ends[leaf], segments):
+        return False
     through, across = (len(offsets(arc, arc.ends[k], segments, SLACK)) > 0 for k in (leaf, 1 - leaf))
     if through and across:
         return None
