@@ -210,6 +210,17 @@ def test_a_door_as_wide_as_the_wall_parts_two_rooms(tmp_path):
     assert joined(read(tmp_path, *rooms, door)) == {frozenset("ab")}
 
 
+def test_a_door_opens_no_wall_that_runs_across_its_end(tmp_path):
+    above = [(0, 3), (8, 3), (8, 6), (0, 6), (0, 3)]
+    rooms = [
+        feature(points, indoor="room", name=name)
+        for points, name in zip((BOX, NEXT, above), "abc", strict=True)
+    ]
+    door = feature([(4, 0), (4, 3)], "LineString", feature_type="opening")
+
+    assert joined(read(tmp_path, *rooms, door)) == {frozenset("ab")}
+
+
 def test_stairs_with_a_door_are_a_room(tmp_path):
     rooms = (
         feature(BOX, indoor="room", name="a"),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from shapely.ops import substring
 
 from pilotage.errors import FileError
 from pilotage.geometry import Array
@@ -123,9 +124,15 @@ def guess_metre(shapes: Sequence[shapely.Geometry]) -> float:
 
 
 def opening_of(feature: Feature, shape: shapely.Geometry, metre: float) -> shapely.Geometry:
-    """Return the area within which a door opens walls; `metre` [map units] is how long one is."""
+    """Return the area within which a door opens walls; `metre` [map units] is how long one is.
+
+    A line opens the wall that it runs along, but not those across its ends.
+    """
     if shape.geom_type == "Point":
         return shapely.buffer(shape, (feature.width or DOOR_WIDTH) * metre / 2.0)
+    if shape.geom_type == "LineString":
+        shape = shapely.set_precision(shape, WALL_GRID * metre, mode="keep_collapsed")
+        shape = substring(shape, GRID * metre, -GRID * metre)
     return shapely.buffer(shape, REACH * metre, cap_style="flat")
 
 
