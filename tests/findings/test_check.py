@@ -141,6 +141,10 @@ def test_the_number_of_a_room_beside_its_name_is_no_second_name():
     assert "several-names" not in kinds(replace(GOOD, labels=numbered))
 
 
+def test_a_name_with_a_comma_is_one_name():
+    assert "several-names" not in kinds(replace(GOOD, labels=(*NAMES[:1], Label("Lab, Store", (15.0, 10.0)))))
+
+
 def test_a_name_that_is_written_twice_in_a_room_is_one_name():
     twice = (*NAMES, Label("Corridor", (17.0, 6.0)))
 

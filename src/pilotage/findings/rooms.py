@@ -226,7 +226,10 @@ def find_names(sketch: SchematicMap, division: Division) -> Iterator[Finding]:
                 cells[1].center,
                 tuple(cell.cell_id for cell in cells),
             )
+    written = {label.text for label in sketch.labels}
     for cell in graph.cells:
+        if cell.label in written:  # one name, though it may have a comma
+            continue
         names = dict.fromkeys(cell.label.split(", "))  # one that is written twice is one
         words = [word for word in names if not word.isdecimal()]  # a room has a number, too
         if len(words) > 1:
