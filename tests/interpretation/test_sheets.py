@@ -161,6 +161,8 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("Оси", Role.IGNORE),
         ("DOTE", Role.IGNORE),
         ("E-POWR", Role.IGNORE),
+        ("A-FLOR-FIXT", Role.FURNITURE),
+        ("A-FLOR-EQPM", Role.FURNITURE),
     ],
 )
 def test_names_of_layers_tell_roles_in_many_languages(name, role):

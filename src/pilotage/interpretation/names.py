@@ -51,8 +51,8 @@ VOCABULARY: Mapping[Role, str] = {
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
     " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
-    " mobiliario muebles mobília meubilair möbler equipment equip appliance appliances fixture"
-    " fixtures fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
+    " mobiliario muebles mobília meubilair möbler equipment equip eqpm appliance appliances fixture"
+    " fixtures fixt fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
     " kitchenware plants trees cabinet desk chair table sofa bed toilet sink bathtub shower мебель"
     " couch couches sofas bench benches shelf shelves shelving rack racks bookcase bookshelf bookshelves"
     " cabinets cupboard cupboards desks chairs tables beds armchair armchairs stool stools toilets sinks"
