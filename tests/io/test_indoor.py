@@ -376,3 +376,14 @@ def test_findings_ask_for_doors_in_the_terms_of_the_file(tmp_path):
         found = report(understood.sketch, understood).findings[0]
         assert "no-doors" == found.kind
         assert words in found.advice
+
+
+def test_a_map_in_pieces_lacks_doors(tmp_path):
+    rooms = [feature(moved(BOX, 4 * k), indoor="room", name=name) for k, name in enumerate("abcde")]
+    door = feature([(4, 1.5)], "Point", door="yes")
+
+    understood = interpret(read(tmp_path, *rooms, door))
+    found = report(understood.sketch, understood).findings[0]
+
+    assert "in-pieces" == found.kind
+    assert found.advice.startswith("add a feature with the feature_type 'opening'")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pilotage.findings.doors import NAMED, NOWHERE, door_width, has_doors, suggest_door
 from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
-from pilotage.interpretation import Interpretation, Role
+from pilotage.interpretation import GAP, Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, SchematicMap, Zones
 from pilotage.maps.routing.places import connected_cells, folded
@@ -23,6 +23,13 @@ APART = 0.04
 
 WHOLE, FEW = 0.6, 3
 """A drawing is in pieces if its largest part has less than this share of the floor, beside so many others."""
+
+MISREAD = (
+    "walls or doors are not understood as they are meant: the picture of --figure shows how;"
+    " erase what is no wall, leave gaps for doors, or say what a layer or color is"
+    " (--layer NAME=furniture); a photo is best traced at the drawing table"
+)
+"""What to do about a drawing in pieces; a map, which tells walls and doors, lacks doors."""
 
 SOLID = 0.005
 """A closed area of less than this share of all cells is not worth a word."""
@@ -133,9 +140,7 @@ def find_parts(graph: CellGraph, to_open: str) -> Iterator[Finding]:
             "in-pieces",
             Severity.WARNING,
             f"doors join only {len(parts[0])} of {count} rooms",
-            "walls or doors are not understood as they are meant: the picture of --figure shows how;"
-            " erase what is no wall, leave gaps for doors, or say what a layer or color is"
-            " (--layer NAME=furniture); a photo is best traced at the drawing table",
+            MISREAD if to_open == GAP else f"{to_open} in the wall wherever a door is",
         )
     for number in range(1, len(parts)):
         if len(parts[number]) < 2:
