@@ -51,6 +51,7 @@ def test_content_tells_the_kind_and_the_name_where_it_does_not(tmp_path, name, c
         ("a.heic", b"\0\0\0\x18ftypheic", "save it as JPEG"),
         ("a.docx", archive("[Content_Types].xml"), "office document"),
         ("a.zip", archive("b.txt"), "unpack it"),
+        ("a.excalidraw.md", b"---\n\nexcalidraw-plugin: parsed\n---\n", "as SVG or .excalidraw"),
         ("a.xyz", b"whatever", "readable are SVG, PDF, DXF"),
         ("a.txt", b"", "empty"),
     ],

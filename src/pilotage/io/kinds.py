@@ -73,6 +73,7 @@ ADVICE = {
     "heic": "a HEIC photo cannot be read: save it as JPEG",
     "zip": "a packed folder cannot be read: unpack it, and name the drawing in it",
     "ifc": "an IFC model cannot be read: export a floor plan of it as DXF, SVG or PDF",
+    "obsidian": "a note of Obsidian cannot be read: export its drawing as SVG or .excalidraw (Export Image)",
     "empty": "the file is empty",
 }
 """What to do with files that cannot be read."""
@@ -115,6 +116,7 @@ SIGNATURES: tuple[tuple[re.Pattern[bytes], Kind | str], ...] = (
     (re.compile(rb"\xd0\xcf\x11\xe0"), "office"),
     (re.compile(rb".{4}ftyp(?:heic|heix|mif1)", re.DOTALL), "heic"),
     (re.compile(rb"ISO-10303-21"), "ifc"),
+    (re.compile(rb"---\s.{0,1023}excalidraw-plugin:", re.DOTALL), "obsidian"),
 )
 """How files of a kind begin."""
 
