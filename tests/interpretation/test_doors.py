@@ -35,11 +35,12 @@ def test_a_leaf_may_stand_ajar(opened):
     assert [Role.WALL, Role.WALL, Role.DOOR, Role.DOOR] == roles((OUTSIDE, WALL, leaf, arced))
 
 
-def test_an_arc_that_bends_the_wrong_way_is_a_door():
+@pytest.mark.parametrize("walls", [(OUTSIDE, WALL), WITH_GAP])
+def test_an_arc_that_bends_the_wrong_way_is_a_door(walls):
     arced = arc((62, 42), 12, 180, 270)
 
-    assert are_joined((OUTSIDE, WALL, arced))
-    assert [Role.WALL, Role.WALL, Role.DOOR] == roles((OUTSIDE, WALL, arced))
+    assert are_joined((*walls, arced))
+    assert [*[Role.WALL] * len(walls), Role.DOOR] == roles((*walls, arced))
 
 
 @pytest.mark.parametrize("opened", [15, 40, 70, -15, -60])

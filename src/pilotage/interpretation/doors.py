@@ -198,7 +198,7 @@ def judge(arcs: Sequence[Arc], segments: Segments) -> tuple[NDArray[np.bool_], A
 def righted(
     arcs: Sequence[tuple[Arc, tuple[int, ...]]], segments: Segments
 ) -> list[tuple[Arc, tuple[int, ...], NDArray[np.bool_], Array]]:
-    """Judge arcs; one is mirrored over its chord if only so a wall runs along its hinge and latch.
+    """Judge arcs; one is mirrored over its chord if only so walls are at its hinge and its latch.
 
     The sense of an arc is easily mistaken where it is written by hand.
     """
@@ -221,12 +221,12 @@ def is_quarter(arc: Arc) -> bool:
 
 
 def is_at_wall(arc: Arc, segments: Segments) -> bool:
-    """Tell whether one straight wall runs from before an arc's hinge to beyond one of its ends."""
+    """Tell whether straight walls stand before an arc's hinge and beyond one of its ends, or one at both."""
     for end in arc.ends:
         along = BESIDE * (end - arc.center)
         places = shapely.points([arc.center - along, end + along])
         place, near = segments.tree.query(places, predicate="dwithin", distance=SLACK * arc.radius)
-        if len(np.intersect1d(near[place == 0], near[place == 1])):
+        if len(np.unique(place[segments.lengths[near] > BESIDE * arc.radius])) == 2:
             return True
     return False
 
