@@ -156,6 +156,21 @@ def test_thin_lines_between_thick_ones_are_thresholds_and_furniture_and_part_roo
     assert not are_joined((OUTSIDE, partition))
 
 
+def test_lines_less_than_half_as_wide_as_walls_are_furniture_unless_they_enclose_rooms_themselves():
+    table = [(20, 20), (28, 20), (28, 26), (20, 26), (20, 20)]
+    alone = (*WITH_GAP, stroke(*table, width=0.4))
+    annex = [
+        stroke((100, 0), (180, 0), (180, 80), (100, 80), width=0.4),
+        stroke((140, 0), (140, 80), width=0.4),
+    ]
+    enlarged = (*WITH_GAP, *annex, stroke(*table, width=0.1))
+
+    assert Role.FURNITURE is interpret(Sheet(alone)).meanings[-1].role
+    assert [Role.WALL, Role.WALL, Role.FURNITURE] == [
+        meaning.role for meaning in interpret(Sheet(enlarged)).meanings[-3:]
+    ]
+
+
 def test_thin_lines_are_furniture_too_where_the_thick_walls_are_open_at_wide_windows():
     below = [stroke((0, 20), (0, 0), (10, 0)), stroke((40, 0), (60, 0)), stroke((90, 0), (100, 0))]
     walls = (*below, stroke((100, 0), (100, 80), (0, 80), (0, 60)), *WITH_GAP[1:])

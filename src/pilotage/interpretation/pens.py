@@ -12,12 +12,12 @@ from pilotage.interpretation.sheet import Role, Sheet
 COLORFUL = 0.45
 """A line is in a color if its channels differ by this much; ink in a photo is paler."""
 
-THIN = 1.0 / 3.0
+THIN = (0.5, 1.0 / 3.0)
 """A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
 
-A hairline is not: files have it where no width was chosen.
+Furniture is drawn so. Inner walls may be, too: where those in a thicker pen enclose too little, the second
+share tells. A hairline is not thin: files have it where no width was chosen.
 """
-
 
 BESIDE = 0.005
 """A wall is drawn along the outline of a room if it comes this near, as a share of the drawing's diagonal."""
@@ -27,13 +27,21 @@ WALLED = 0.5
 
 
 def by_style(
-    seen: Sequence[Seen], sheet: Sheet, named: Mapping[int, Role], solid: shapely.Geometry, diagonal: float
+    seen: Sequence[Seen],
+    sheet: Sheet,
+    named: Mapping[int, Role],
+    solid: shapely.Geometry,
+    diagonal: float,
+    *,
+    share: float,
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
     """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
 
+    The `share` is one of THIN.
+
     The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
     """
-    thin = THIN * usual_pen(seen, sheet)
+    thin = share * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
     rooms: list[shapely.Geometry] = []

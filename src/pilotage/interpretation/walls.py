@@ -13,7 +13,7 @@ from pilotage.interpretation.floors import floor_edges
 from pilotage.interpretation.hatching import shut_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.partitions import TOUCHING, find_partitions
-from pilotage.interpretation.pens import by_style
+from pilotage.interpretation.pens import THIN, by_style
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import (
     ENCLOSING,
@@ -190,10 +190,11 @@ def find_walls(
     glass = shapely.union_all([*(shape for mark in panes for shape in (mark.line, mark.area)), *blue])
     called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
     called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
+    styles = [by_style(seen, sheet, named, solid, diagonal, share=share) for share in THIN]
     drawn = Drawn(
         solid,
         frozenset(colors),
-        *by_style(seen, sheet, named, solid, diagonal),
+        *styles[0],
         panels,
         glass,
         called,
@@ -202,12 +203,12 @@ def find_walls(
         sheet.openings,
         diagonal,
     )
-    ways = (
-        walls
-        for way in (named_walls, painted_walls, faced_walls, black_lines)
-        if (walls := way(drawn)) is not None
-    )
-    return next(ways, Walls(solid, None, drawn.colors))
+    ways = [
+        *((way, drawn) for way in (named_walls, painted_walls, faced_walls)),
+        *((black_lines, replace(drawn, main=main, marginal=marginal)) for main, marginal in styles),
+    ]
+    found = (walls for way, one in ways if (walls := way(one)) is not None)
+    return next(found, Walls(solid, None, drawn.colors))
 
 
 def named_walls(drawn: Drawn) -> Walls | None:
