@@ -1,6 +1,7 @@
 """Discs in a color of their own, and compasses."""
 
 import numpy as np
+import pytest
 
 from flats import BLACK, WITH_GAP
 from pilotage.geometry import Polyline
@@ -30,11 +31,12 @@ def test_a_column_in_the_color_of_walls_and_a_round_hall_are_built():
     assert [Role.WALL, Role.WALL] == found
 
 
-def test_a_circle_around_an_n_is_a_compass_with_its_needle_and_no_name():
+@pytest.mark.parametrize("points", ["N", "NS", "СЮ", "北"])
+def test_a_circle_around_a_letter_of_the_north_is_a_compass_with_its_needle_and_no_name(points):
     needle = Mark((Polyline.through([(90, 68), (90, 72)]),), Pen(BLACK, 1.0))
-    north = Text("N", (90.0, 72.0), 2.0)
+    letters = tuple(Text(point, (90.0, 72.0 - 4.0 * place), 2.0) for place, point in enumerate(points))
 
-    assert ([Role.IGNORE] * 2, ()) == roles(disc(90, 70, 5, Pen(BLACK, 1.0)), needle, texts=(north,))
+    assert ([Role.IGNORE] * 2, ()) == roles(disc(90, 70, 5, Pen(BLACK, 1.0)), needle, texts=letters)
 
 
 def test_a_circle_without_an_n_and_an_n_without_a_circle_stay():

@@ -15,13 +15,15 @@ LARGEST = 0.1
 ROUND = 0.97
 """Area of a circle as drawn, as a share of that of a true one as long: one of twelve chords has 0.977."""
 
-NORTH = "N"
+NORTHS = frozenset(("N", "\N{CYRILLIC CAPITAL LETTER ES}", "北", "북"))
+"""How a compass marks the north."""
 
 
 def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set[int], set[int]]:
     """Find the marks that are signs, and the texts in them, by number.
 
-    Lamps, sensors and pins are discs in a color that nothing else has; a compass is a circle around an N.
+    Lamps, sensors and pins are discs in a color that nothing else has; a compass is a circle around the
+    letter of the north, maybe with those of other points.
     """
     small = {mark.number for mark in seen if is_circle(sheet.marks[mark.number], LARGEST * diagonal)}
     others = {
@@ -33,7 +35,7 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
         if (fill := sheet.marks[number].fill) is not None
         and all(difference(fill, color) >= SAME for color in others)
     }
-    norths = [text for text in sheet.texts if text.text.strip() == NORTH]
+    norths = [text for text in sheet.texts if text.text.strip() in NORTHS]
     boxes = [bounds_of(sheet.marks[number]) for number in sorted(small)]
     compasses = [box for box in boxes if any(holds(box, (*text.position, *text.position)) for text in norths)]
     parts = {
@@ -44,7 +46,8 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
     texts = {
         number
         for number, text in enumerate(sheet.texts)
-        if text in norths and any(holds(box, (*text.position, *text.position)) for box in compasses)
+        if len(text.text.strip()) == 1
+        and any(holds(box, (*text.position, *text.position)) for box in compasses)
     }
     return discs | parts, texts
 
