@@ -171,6 +171,15 @@ def test_lines_less_than_half_as_wide_as_walls_are_furniture_unless_they_enclose
     ]
 
 
+def test_a_long_thin_line_within_a_building_is_a_wall_but_no_large_bed_that_stands_free():
+    bed = [(15, 20), (27, 20), (27, 38), (15, 38)]
+    screen = stroke(*bed, width=0.1)
+    closed = stroke(*bed, bed[0], width=0.1)
+
+    assert Role.WALL is interpret(Sheet((*WITH_GAP, screen))).meanings[-1].role
+    assert Role.FURNITURE is interpret(Sheet((*WITH_GAP, closed))).meanings[-1].role
+
+
 def test_thin_lines_are_furniture_too_where_the_thick_walls_are_open_at_wide_windows():
     below = [stroke((0, 20), (0, 0), (10, 0)), stroke((40, 0), (60, 0)), stroke((90, 0), (100, 0))]
     walls = (*below, stroke((100, 0), (100, 80), (0, 80), (0, 60)), *WITH_GAP[1:])

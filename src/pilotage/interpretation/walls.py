@@ -300,8 +300,18 @@ def black_lines(drawn: Drawn) -> Walls | None:
             if extent(part) > widest or not within.contains(part)
         ]
     )
-    long = [part for part in parts_of(others) if extent(part) >= LONG * drawn.diagonal]
+    rest = without_islands(others, body, within, edge)
+    long = [part for part in parts_of(rest) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
+
+
+def without_islands(
+    lines: shapely.Geometry, body: shapely.Geometry, within: shapely.Geometry, edge: float
+) -> shapely.Geometry:
+    """Leave out lines that stand free within a building and close on themselves: beds and tables."""
+    groups = parts_of(shapely.union_all(shapely.buffer(parts_of(lines), edge)))
+    free = [group for group in groups if within.contains(group) and not group.intersects(body)]
+    return shapely.difference(lines, shapely.union_all([group for group in free if group.interiors]))
 
 
 def opened_shut(shut: shapely.Geometry) -> tuple[Polyline, ...]:
