@@ -271,6 +271,17 @@ def test_a_start_in_a_wall_and_a_goal_without_a_way_are_errors():
     assert ["bad-goal"] == [finding.kind for finding in other.findings]
 
 
+def test_a_goal_that_no_drawn_door_leads_to_is_a_warning():
+    shut = drawing(
+        [(0, 0), (15, 0), (15, 5), (0, 5), (0, 0)], [(5, 0), (5, 5)], [(10, 0), (10, 2)], [(10, 3), (10, 5)]
+    )
+    found = {one.kind: one for one in pilotage.check(replace(shut, goal=(2.0, 2.0)))}
+
+    assert Severity.WARNING is found["closed-goal"].severity
+    assert "no gateways lead from the largest part" in found["closed-goal"].text
+    assert "closed-goal" not in kinds(replace(shut, goal=(12.0, 2.0)))
+
+
 def test_findings_are_in_the_axes_of_the_file():
     sketch = drawing(*CORRIDOR_AND_FOUR_ROOMS, [(60, 3), (61, 4)], y_down=True)
 

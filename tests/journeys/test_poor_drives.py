@@ -27,15 +27,27 @@ ROOMS = (
     [(10, 3), (10, 5)],
 )
 """Three rooms in a row."""
-WORLD = World.of(SchematicMap(tuple(Polyline.through(stroke) for stroke in ROOMS)))
 START, GOAL = Pose2(2.5, 2.5, 0.0), (12.5, 2.5)
 TOLD = (2.5, 2.5, 0.0)
 FEW = LocalizerSettings(atlas=AtlasSettings(range_table=RangeTableSettings(cells=80, directions=60)))
 
 
-def drawn(scale=1.0):
+CORNER = [(0, 0), (15, 0), (15, 9), (9, 9), (9, 5), (0, 5), (0, 0)]
+CLOSED, OPEN = (CORNER, [(5, 0), (5, 5)]), (CORNER, [(5, 0), (5, 3)], [(5, 4), (5, 5)])
+"""Two rooms, one of them around a corner, by someone who forgot the door; and as they are."""
+
+
+def world_of(strokes):
+    """Build what is drawn."""
+    return World.of(SchematicMap(tuple(Polyline.through(stroke) for stroke in strokes)))
+
+
+WORLD = world_of(ROOMS)
+
+
+def drawn(scale=1.0, strokes=ROOMS):
     """Draw the rooms, so many units a metre."""
-    return SchematicMap(tuple(Polyline.through(scale * np.array(stroke)) for stroke in ROOMS))
+    return SchematicMap(tuple(Polyline.through(scale * np.array(stroke)) for stroke in strokes))
 
 
 def boxed_in(pose, half):
@@ -56,6 +68,7 @@ class Journey:
     reaches: bool = False
     world: World = WORLD
     scale: float = 1.0
+    strokes: tuple[list[tuple[float, float]], ...] = ROOMS
     told: tuple[float, float, float] = TOLD
     truly: Pose2 = START
     laser: LaserSettings | None = None
@@ -68,7 +81,7 @@ class Journey:
         navigator = NavigatorSettings(radius=self.radius, time_limit=seconds or self.seconds)
         scale, (x, y, heading) = self.scale, self.told
         return navigate(
-            drawn(scale),
+            drawn(scale, self.strokes),
             self.world,
             (scale * GOAL[0], scale * GOAL[1]),
             start=(scale * x, scale * y, heading),
@@ -96,6 +109,7 @@ JOURNEYS = {
     "boxed in": Journey(8.0, turns=0.5, world=boxed_in(START, 0.5)),
     "tiny drawing": Journey(20.0, travels=9.0, scale=1e-3),
     "huge drawing": Journey(20.0, travels=9.0, scale=1e4),
+    "forgotten doors": Journey(40.0, travels=9.0, reaches=True, strokes=CLOSED, world=world_of(OPEN)),
     "wrong start": Journey(15.0, travels=3.0, told=(7.5, 2.5, 0.0), truly=Pose2(1.0, 1.0, 2.0)),
     "large robot": Journey(15.0, travels=1.0, radius=0.6),
 }

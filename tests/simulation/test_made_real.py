@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from buildings import coarse, flat
-from pilotage.geometry import Pose2
-from pilotage.maps import build_atlas
+from pilotage.geometry import Polyline, Pose2
+from pilotage.maps import SchematicMap, build_atlas
 from pilotage.simulation import StartError
 from pilotage.simulation.made_real import MOST_PIECES, make_real
 from pilotage.simulation.proportions import Proportions
@@ -95,6 +95,17 @@ def test_a_building_of_kilometres_gets_no_more_furniture_than_a_large_one():
     )
 
     assert 0 < len(made.segments) - len(empty.segments) < 4 * MOST_PIECES
+
+
+def test_a_drawing_of_closed_rooms_is_built_with_doors():
+    strokes = ([(0, 0), (15, 0), (15, 5), (0, 5), (0, 0)], [(5, 0), (5, 5)], [(10, 0), (10, 5)])
+    closed = build_atlas(SchematicMap(tuple(map(Polyline.through, strokes))), coarse())
+    made = make_real(closed, 0.3, np.random.default_rng(0), start=(2.5, 2.5), goal=(12.5, 2.5))
+    goal = made.proportions.world_from_sketch(np.array([(12.5, 2.5)]))[0]
+
+    assert () == closed.cell_graph.gateways
+    assert 2 == len(made.world.doors)
+    assert math.isfinite(made.world.shortest_way(made.world.start.position, goal, RADIUS).length)
 
 
 def test_a_marked_start_is_where_the_robot_stands():

@@ -48,7 +48,7 @@ class Drive:
             [instant.step for instant in instants],
             [instant.scene for instant in instants],
             [instant.step_ms for instant in instants],
-            atlas.cell_graph,
+            None if atlas.joined is None else atlas.joined.graph,
         )
 
     @property

@@ -37,10 +37,11 @@ from pilotage.maps import (
     check_reachable,
     divide,
 )
+from pilotage.maps.routing.forgotten_doors import join_parts
 from pilotage.maps.routing.roadmap import check_allowed
 
 ORDER = tuple(Severity)
-END_KINDS = ("bad-start", "bad-goal")
+END_KINDS = ("bad-start", "bad-goal", "closed-goal")
 
 FOLLOWING = ("unreachable", "room-without-door", "closed-gap")
 """Where a drawing is in pieces these follow from it, and are but notes."""
@@ -147,10 +148,23 @@ def find_bad_ends(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
             yield bad_end(what, point, place_problem(graph, point, what))
     if goal is not None:
         try:
-            check_reachable(graph, goal, start)
             check_allowed(sketch.zones, goal)
+            check_reachable(join_parts(graph).graph, goal, start)
         except RouteError as error:
             yield bad_end("goal", goal, str(error))
+        else:
+            yield from find_closed_way(graph, goal, start)
+
+
+def find_closed_way(graph: CellGraph, goal: Point, start: Point | None) -> Iterator[Finding]:
+    """Find that no drawn door leads to a goal: a robot tries the walls, and may well fail."""
+    try:
+        check_reachable(graph, goal, start)
+    except RouteError as error:
+        advice = (
+            "draw the doors that lead there: without them the robot tries wall after wall, and often fails"
+        )
+        yield Finding("closed-goal", Severity.WARNING, str(error), advice, goal)
 
 
 def usable(graph: CellGraph, point: Point | None) -> Point | None:

@@ -1,23 +1,19 @@
 """Tell whether doors join rooms, and where one could be cut into a room that has none."""
 
-from itertools import pairwise
-
 import numpy as np
 import shapely
 
 from pilotage.findings.finding import Mend, MendKind
 from pilotage.geometry import Array
 from pilotage.maps import CellGraph
+from pilotage.maps.routing.forgotten_doors import (
+    MOST_OF_WALL,
+    WALLS,
+    common_sides,
+    door_width,
+    middle_of,
+)
 from pilotage.maps.routing.places import connected_cells
-
-WALLS = (0.004, 0.01, 0.02, 0.04)
-"""Thicknesses of walls that are tried, as shares of the drawing's diameter."""
-
-DOOR = 0.03
-"""Width of a door as a share of the drawing's diameter, where there is none to compare with."""
-
-MOST_OF_WALL = 0.6
-"""A door takes at most this share of a straight wall."""
 
 NEAR = 1.5
 """A door that is drawn this near to a wall may lead through it, as a share of the usual door's width."""
@@ -26,12 +22,6 @@ NAMED = 3
 """Where so many rooms have a name, doors lead to these."""
 
 NOWHERE = np.empty((0, 2))
-
-
-def door_width(graph: CellGraph) -> float:
-    """Return the usual width of a door [drawing units]: the median of all gateways, if there are any."""
-    widths = [gateway.width for gateway in graph.gateways]
-    return float(np.median(widths)) if widths else DOOR * graph.diameter
 
 
 def has_doors(graph: CellGraph) -> bool:
@@ -54,9 +44,7 @@ def suggest_door(
     Returns None if no other room is near.
     """
     for thickness in np.array(WALLS) * graph.diameter:
-        near = shapely.buffer(others, thickness, join_style="mitre")
-        shared = shapely.intersection(room.exterior, near)  # each alone: a door leads to one room
-        sides = np.concatenate([np.empty((0, 2, 2)), *map(straight_sides, shared)])
+        sides = common_sides(room, others, thickness)
         if len(sides):
             lengths = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
             width = door_width(graph)
@@ -82,20 +70,7 @@ def nearest_side(sides: Array, drawn: Array, width: float) -> Array | None:
     return np.array([side.interpolate(along - half).coords[0], side.interpolate(along + half).coords[0]])
 
 
-def straight_sides(lines: shapely.Geometry) -> Array:
-    """List the segments of some lines, (n, 2, 2); collinear ones are joined, and points dropped."""
-    kept = [part for part in shapely.get_parts(lines) if shapely.length(part) > 0.0]
-    merged = shapely.simplify(shapely.line_merge(shapely.union_all(kept)), 1e-9)
-    sides = []
-    for line in shapely.get_parts(merged):
-        points = shapely.get_coordinates(line)
-        sides += [np.stack([a, b]) for a, b in pairwise(points)]
-    return np.array(sides).reshape(-1, 2, 2)
-
-
 def cut(side: Array, width: float) -> Mend:
     """Cut a door of this width in the middle of a side (2, 2)."""
-    middle = side.mean(axis=0)
-    half = (side[1] - side[0]) / np.hypot(*(side[1] - side[0])) * width / 2.0
-    (ax, ay), (bx, by) = (middle - half).tolist(), (middle + half).tolist()
+    (ax, ay), (bx, by) = middle_of(side, width).tolist()
     return Mend(MendKind.CUT, ((ax, ay), (bx, by)), "cut a door here?")

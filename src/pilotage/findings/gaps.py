@@ -5,10 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from pilotage.findings.doors import cut, door_width
+from pilotage.findings.doors import cut
 from pilotage.findings.finding import Finding, Mend, MendKind, Severity, length_in_words, pair
 from pilotage.geometry import Array
 from pilotage.maps import CellGraph, Division, SchematicMap
+from pilotage.maps.routing.forgotten_doors import door_width
 
 NARROW = 0.4
 """A gap of less than this share of the usual door is a slip of the pen, an opening of less is no door."""

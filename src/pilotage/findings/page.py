@@ -7,11 +7,12 @@ import shapely
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from pilotage.findings.doors import door_width, suggest_door
+from pilotage.findings.doors import suggest_door
 from pilotage.findings.finding import Finding, Mend, MendKind, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation
 from pilotage.maps import CellGraph, SchematicMap
+from pilotage.maps.routing.forgotten_doors import door_width
 from pilotage.maps.schematic import diameter_of
 
 FAR = 0.1

@@ -7,12 +7,13 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.findings.doors import NAMED, NOWHERE, door_width, has_doors, suggest_door
+from pilotage.findings.doors import NAMED, NOWHERE, has_doors, suggest_door
 from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import GAP, Interpretation, Role
 from pilotage.interpretation.names import MEANING, name_words
 from pilotage.maps import Cell, CellGraph, Division, SchematicMap, Zones
+from pilotage.maps.routing.forgotten_doors import door_width
 from pilotage.maps.routing.places import connected_cells, folded
 
 BUILDING = 0.2

@@ -7,12 +7,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.findings.doors import door_width
 from pilotage.findings.finding import Finding, Severity
 from pilotage.findings.rooms import named
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 from pilotage.maps import CellGraph
+from pilotage.maps.routing.forgotten_doors import door_width
 
 STEPS = 5
 """So many lines, one after the other, may be the steps of stairs."""

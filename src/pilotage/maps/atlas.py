@@ -13,6 +13,7 @@ from pilotage.maps.cells.decomposition import decompose
 from pilotage.maps.cells.free_space import NOTHING, DecompositionSettings, NotEnclosedError
 from pilotage.maps.cells.graph import CellGraph
 from pilotage.maps.range_table import RangeTable, RangeTableSettings, build_range_table
+from pilotage.maps.routing.forgotten_doors import JoinedGraph, join_parts
 from pilotage.maps.schematic import SchematicMap
 from pilotage.shape.corners import Corners, find_corners
 from pilotage.shape.simplify import Simplification, simplify, simplify_all
@@ -45,6 +46,11 @@ class Atlas:
     cell_graph: CellGraph | None  # None if the drawing encloses nothing
     corners: Corners  # as seen from free space
     log_scale: float  # [log drawing units per metre] a first guess, good to a factor of about 1.5
+
+    @cached_property
+    def joined(self) -> JoinedGraph | None:
+        """The cells as a robot drives in them: also through doors that the drawing may have forgotten."""
+        return None if self.cell_graph is None else join_parts(self.cell_graph)
 
     @cached_property
     def cell_indices(self) -> NDArray[np.int64]:

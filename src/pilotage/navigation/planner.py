@@ -17,8 +17,8 @@ class RoutePlanner:
     def __init__(self, atlas: Atlas, goal: Point | str, settings: RouteSettings) -> None:
         self.atlas = atlas
         self.goal = find_goal(atlas, goal)
-        assert atlas.cell_graph is not None  # else there is no goal
-        self.graph = atlas.cell_graph
+        assert atlas.joined is not None  # else there is no goal
+        self.graph = atlas.joined.graph
         self.roadmap = Roadmap(self.graph, settings, atlas.sketch.zones)
         self._cost_to_go = lru_cache(maxsize=1)(self._find_costs)
 

@@ -71,9 +71,9 @@ class Session:
                 atlas, resumed.localizer, settings[0], scale=scale, stood=True
             )
             self.sightings += resumed.sightings
-            graph = atlas.cell_graph
-            if graph is not None:  # other settings may have divided the drawing otherwise
-                self._blocked = tuple(one for one in resumed.blocked if one in graph.gateway_ids)
+            if atlas.joined is not None:  # other settings may have divided the drawing otherwise
+                ids = atlas.joined.graph.gateway_ids
+                self._blocked = tuple(one for one in resumed.blocked if one in ids)
         self.atlas = self._localizer.atlas
         self._navigator: Navigator | None = None
         self._reckoning = DeadReckoning(self._localizer)

@@ -10,9 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
+from shapely.affinity import translate
 
 from pilotage.geometry import Array, Polyline, Pose2
 from pilotage.maps import Atlas, Cell, CellGraph
+from pilotage.maps.routing.forgotten_doors import ForgottenDoor
 from pilotage.maps.routing.places import connected_cells
 from pilotage.simulation.people import Person
 from pilotage.simulation.proportions import Proportions
@@ -87,13 +89,16 @@ def make_real(
     The robot truly begins at `start` [drawing units, y up], or somewhere from where one can go to the `goal`,
     and in another room if there is one. Raises StartError if it cannot stand there.
     """
-    graph = atlas.cell_graph
-    assert graph is not None
+    assert atlas.joined is not None
+    assert atlas.cell_graph is not None
+    graph = atlas.joined.graph
     proportions = proportions_of(atlas, graph, severity, rng)
-    walls = proportions.bent(atlas.sketch.segments)
-    openings = [proportions.world_from_sketch(gateway.segment) for gateway in graph.gateways]
+    doorways, drawn_walls = cut_doors(atlas.sketch.segments, atlas.joined.doors, rng)
+    walls = proportions.bent(drawn_walls)
+    doorways += [gateway.segment for gateway in atlas.cell_graph.gateways]
+    openings = [proportions.world_from_sketch(doorway) for doorway in doorways]
     kept_free = [proportions.world_from_sketch(np.array([place]))[0] for place in (goal, start) if place]
-    rooms = [carried_cell(cell, proportions) for cell in graph.cells]
+    rooms = [carried_cell(cell, proportions) for cell in atlas.cell_graph.cells]
     rng_things, rng_doors, rng_people, rng_start = rng.spawn(4)
     area_a_piece = max(AREA_A_PIECE, sum(room.area for room in rooms) / MOST_PIECES)
     rate = severity / area_a_piece
@@ -105,6 +110,22 @@ def make_real(
     )
     places = [kept_free[-1]] if start else candidates(graph, rooms, goal, rng_start)
     return MadeReal(replace(world, start=stand(world, places, heading, radius, rng_start)), proportions)
+
+
+def cut_doors(
+    walls: Array, doors: Sequence[ForgottenDoor], rng: np.random.Generator
+) -> tuple[list[Array], Array]:
+    """Cut doors that nobody drew somewhere into walls (n, 4); returns them, each (2, 2), and what is left."""
+    if not doors:
+        return [], walls
+    shifts = [rng.uniform(-1.0, 1.0) * door.leeway for door in doors]
+    pairs = list(zip(doors, shifts, strict=True))
+    gone = shapely.union_all([translate(door.opening, *shift.tolist()) for door, shift in pairs])
+    left = shapely.difference(shapely.linestrings(walls.reshape(-1, 2, 2)), gone)
+    ends = [
+        shapely.get_coordinates(piece)[[0, -1]] for piece in shapely.get_parts(left) if piece.length > 0.0
+    ]
+    return [door.segment + shift for door, shift in pairs], np.array(ends).reshape(-1, 4)
 
 
 def proportions_of(atlas: Atlas, graph: CellGraph, severity: float, rng: np.random.Generator) -> Proportions:

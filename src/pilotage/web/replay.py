@@ -135,7 +135,7 @@ def any_goal(atlas: Atlas) -> tuple[float, float]:
 
 
 def graph_of(atlas: Atlas) -> CellGraph:
-    """Return the cells of a drawing; NoRoomError if it has none."""
-    if atlas.cell_graph is None:
+    """Return the cells of a drawing, joined for driving; NoRoomError if it has none."""
+    if atlas.joined is None:
         raise NoRoomError("a drawing to localize on must enclose free space, it has no closed room")
-    return atlas.cell_graph
+    return atlas.joined.graph

@@ -24,6 +24,9 @@ Point = tuple[float, float]
 GRAZE = 2e-3
 """Share of its size by which a cell is widened for visibility tests: paths may touch corners and gateways."""
 
+UNDRAWN = 0.5
+"""Added cost of a gateway that is not drawn, a share of the diameter: for where no drawn ones lead."""
+
 NO_ZONES = Zones()
 
 
@@ -197,7 +200,7 @@ class Roadmap:
     def _add_gateway(self, gateway: Gateway) -> None:
         """Add both faces of a gateway, and the step from one to the other."""
         faces = self._add_node(gateway.middle), self._add_node(gateway.middle)
-        cost = self.settings.passing(gateway.width / self.graph.diameter)
+        cost = self.settings.passing(gateway.width / self.graph.diameter) + UNDRAWN * (not gateway.is_drawn)
         entered = self.zones.entered_through(gateway)
         for (here, there), cell_id in zip((faces, faces[::-1]), gateway.cell_ids[::-1], strict=True):
             if entered in {"", cell_id}:
