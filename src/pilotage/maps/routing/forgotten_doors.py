@@ -4,6 +4,7 @@ Many plans and sketches show rooms as closed boxes. A robot that is to go from o
 walls between them. Such a gateway costs so much that a route through drawn ones is always preferred.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -48,26 +49,15 @@ def join_parts(graph: CellGraph) -> JoinedGraph:
 
     A cell reaches through the wall up to such a gateway. A graph in one part stays as it is.
     """
-    parts = connected_cells(graph)
-    part_of = {cell_id: number for number, part in enumerate(parts) for cell_id in part}
     rooms = {cell.cell_id: cell.polygon for cell in graph.cells}
     gateways: list[Gateway] = []
     doors: list[ForgottenDoor] = []
-    near = graph.tree.query(graph.tree.geometries, predicate="dwithin", distance=WALLS[-1] * graph.diameter)
-    for pair in near.T.tolist():
-        if pair[0] >= pair[1]:
-            continue
-        first, second = sorted((graph.cells[k] for k in pair), key=lambda cell: cell.polygon.area)
-        if part_of[first.cell_id] == part_of[second.cell_id]:
-            continue
+    for first, second in neighbors_apart(graph):
         door = find_door(first.polygon, second.polygon, graph)
-        if door is None:
+        if door is None or reaches_others(door, (first, second), graph):
             continue
-        opening = door.opening
-        widened = shapely.union(rooms[second.cell_id], shapely.difference(opening, first.polygon))
-        others = [cell.polygon for cell in graph.cells if cell is not first and cell is not second]
-        is_free = shapely.area(shapely.intersection(others, opening)).sum() <= OVERLAP * opening.area
-        if is_free and widened.geom_type == "Polygon":
+        widened = shapely.union(rooms[second.cell_id], shapely.difference(door.opening, first.polygon))
+        if widened.geom_type == "Polygon":
             rooms[second.cell_id] = widened
             name = f"forgotten{len(gateways) + 1}"
             gateways.append(Gateway(name, door.segment, (first.cell_id, second.cell_id), is_drawn=False))
@@ -76,6 +66,24 @@ def join_parts(graph: CellGraph) -> JoinedGraph:
         return JoinedGraph(graph)
     cells = tuple(reshaped(cell, rooms[cell.cell_id]) for cell in graph.cells)
     return JoinedGraph(CellGraph(cells, (*graph.gateways, *gateways), graph.diameter), tuple(doors))
+
+
+def neighbors_apart(graph: CellGraph) -> Iterator[tuple[Cell, Cell]]:
+    """Go through neighbors that no drawn way joins, the smaller cell of two first."""
+    parts = connected_cells(graph)
+    part_of = {cell_id: number for number, part in enumerate(parts) for cell_id in part}
+    near = graph.tree.query(graph.tree.geometries, predicate="dwithin", distance=WALLS[-1] * graph.diameter)
+    for pair in near.T.tolist():
+        first, second = sorted((graph.cells[k] for k in pair), key=lambda cell: cell.polygon.area)
+        if pair[0] < pair[1] and part_of[first.cell_id] != part_of[second.cell_id]:
+            yield first, second
+
+
+def reaches_others(door: ForgottenDoor, cells: tuple[Cell, Cell], graph: CellGraph) -> bool:
+    """Tell whether a door between two cells reaches into others: then these lie between."""
+    met = [graph.cells[k] for k in graph.tree.query(door.opening).tolist()]
+    others = [cell.polygon for cell in met if cell not in cells]
+    return bool(shapely.area(shapely.intersection(others, door.opening)).sum() > OVERLAP * door.opening.area)
 
 
 def find_door(room: shapely.Polygon, other: shapely.Polygon, graph: CellGraph) -> ForgottenDoor | None:
