@@ -26,6 +26,9 @@ FLAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="no
 
 CONTENT = {"media": "image/svg+xml", "text": FLAT}
 
+APART = FLAT.replace("</svg>", '<path d="M300 10 H340 V50 H300 Z"/><text x="320" y="30">shed</text></svg>')
+"""The same, and a shed at some distance."""
+
 CLOSED = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="none" stroke="black">
 <path d="M10 10 H190 V110 H10 Z M70 10 V40 M70 60 V110 M130 10 V110"/>
 <text x="30" y="60">hall</text><text x="160" y="60">cell</text></svg>

@@ -18,7 +18,7 @@ from pilotage.web.app import build_app
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
 from pilotage.web.table import Table
-from web_table import CLOSED, CONTENT, FLAT, HOST, LIVE, TOKEN, TWO_ROOMS, Talk
+from web_table import APART, CONTENT, FLAT, HOST, LIVE, TOKEN, TWO_ROOMS, Talk
 
 SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
@@ -170,7 +170,7 @@ def test_what_cannot_be_started_is_one_sentence(
 @pytest.mark.parametrize(
     ("text", "goal", "words"),
     [
-        (CLOSED, "cell", "gateways"),
+        (APART, "shed", "gateways"),
         (FLAT, "attic", "attic"),
         ("<svg/>", "hall", "stroke"),
         (FLAT, [900, 900], "outside"),
