@@ -127,7 +127,8 @@ def navigate(
     written in the drawing, and the drive then ends anywhere in that room. A point that
     cannot be reached, behind a closed door or in a niche that is not there, counts as reached where the robot
     comes nearest, after it has tried other ways; how much is missing is said. Of several goals, one that is
-    not reached in its time is left out, and said.
+    not reached in its time is left out, and said. Where no drawn door leads to the goal, the robot tries the
+    walls between, and often gives up.
 
     A drive that ends without reaching its goal is no error: the exit status is 0, and the *outcome* in the
     last line of the journal tells.

@@ -74,7 +74,7 @@ def render(drive: Drive, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
         animated=True, parse_math=False,
     )  # fmt: skip
     style.show_all_literally(figure)
-    with style.some_glyphs_missing():
+    with style.missing_glyphs_ignored():
         canvas.draw()
     background = canvas.copy_from_bbox(figure.bbox)
     for k in chosen:
@@ -85,7 +85,7 @@ def render(drive: Drive, chosen: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
             figure.draw_artist(artist)
         caption.set_text(caption_of(drive, k))
         style.show_literally(caption)
-        with style.some_glyphs_missing():
+        with style.missing_glyphs_ignored():
             figure.draw_artist(caption)
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 

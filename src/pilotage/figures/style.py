@@ -149,14 +149,14 @@ def show_literally(text: Text) -> None:
 
 
 def show_all_literally(figure: Figure) -> None:
-    """Do so with all texts of a figure."""
+    """Replace in all texts of a figure what no font can show."""
     for text in figure.findobj(Text):
         assert isinstance(text, Text)
         show_literally(text)
 
 
 @contextmanager
-def some_glyphs_missing() -> Iterator[None]:
+def missing_glyphs_ignored() -> Iterator[None]:
     """Draw without a warning for each letter of a script that no installed font has."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph .* missing")
@@ -177,5 +177,5 @@ def save(figure: Figure, path: Path | str) -> None:
     """Write a figure whole or not at all; the name's ending tells the format (png, svg, pdf)."""
     kind = format_of(path)
     show_all_literally(figure)
-    with replacing(path) as beside, some_glyphs_missing():
+    with replacing(path) as beside, missing_glyphs_ignored():
         figure.savefig(beside, format=kind, dpi=DPI)

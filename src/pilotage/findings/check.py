@@ -94,12 +94,13 @@ def find_all(
     """Ask all checks."""
     drawn, to_open = drawn_doors(interpretation), to_open_in(interpretation)
     yield from find_bad_ends(sketch, division.graph)
-    if len(division.graph.cells) > 1 and not has_doors(division.graph):
+    joined = len(division.graph.cells) == 1 or has_doors(division.graph)
+    if not joined:
         yield from find_no_door(division.graph, drawn, to_open)
     else:
         yield from find_parts(division.graph, to_open)
     yield from find_closed_areas(sketch, division, to_open)
-    yield from find_rooms_without_door(sketch, division.graph, drawn, to_open)
+    yield from find_rooms_without_door(sketch, division.graph, drawn, to_open, joined=joined)
     yield from find_stair_rooms(division.graph, sketch.zones)
     yield from find_drivable_stairs(division.graph, interpretation)
     yield from find_far_strokes(sketch, division.graph)
@@ -149,22 +150,20 @@ def find_bad_ends(sketch: SchematicMap, graph: CellGraph) -> Iterator[Finding]:
     if goal is not None:
         try:
             check_allowed(sketch.zones, goal)
-            check_reachable(join_parts(graph).graph, goal, start)
+            check_reachable(graph, goal, start)
         except RouteError as error:
-            yield bad_end("goal", goal, str(error))
-        else:
-            yield from find_closed_way(graph, goal, start)
+            yield no_way(sketch, graph, goal, start, str(error))
 
 
-def find_closed_way(graph: CellGraph, goal: Point, start: Point | None) -> Iterator[Finding]:
-    """Find that no drawn door leads to a goal: a robot tries the walls, and may well fail."""
+def no_way(sketch: SchematicMap, graph: CellGraph, goal: Point, start: Point | None, problem: str) -> Finding:
+    """Report a goal to which no drawn door leads: a robot tries the walls, if there are any between."""
     try:
-        check_reachable(graph, goal, start)
-    except RouteError as error:
-        advice = (
-            "draw the doors that lead there: without them the robot tries wall after wall, and often fails"
-        )
-        yield Finding("closed-goal", Severity.WARNING, str(error), advice, goal)
+        check_allowed(sketch.zones, goal)
+        check_reachable(join_parts(graph).graph, goal, start)
+    except RouteError:
+        return bad_end("goal", goal, problem)
+    advice = "draw the doors that lead there: without them the robot tries wall after wall, and often fails"
+    return Finding("closed-goal", Severity.WARNING, problem, advice, goal)
 
 
 def usable(graph: CellGraph, point: Point | None) -> Point | None:

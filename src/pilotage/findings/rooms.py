@@ -7,7 +7,7 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.findings.doors import NAMED, NOWHERE, has_doors, suggest_door
+from pilotage.findings.doors import NAMED, NOWHERE, suggest_door
 from pilotage.findings.finding import Finding, Severity
 from pilotage.geometry import Array
 from pilotage.interpretation import GAP, Interpretation, Role
@@ -55,17 +55,17 @@ FURNITURE = 0.15
 
 
 def find_rooms_without_door(
-    sketch: SchematicMap, graph: CellGraph, drawn: Array, to_open: str
+    sketch: SchematicMap, graph: CellGraph, drawn: Array, to_open: str, *, joined: bool
 ) -> Iterator[Finding]:
     """Find cells that no gateway leads to; `drawn` are places of drawn doors, (n, 2).
 
-    Where there is none at all, `find_no_door` says so of all, and only those that open outwards are told.
+    Unless doors have `joined` any rooms, `find_no_door` tells of all, and only those that open outwards are
+    told here.
     """
     rooms = [cell for cell in graph.cells if not graph.gateways_of(cell.cell_id)]
     if len(graph.cells) == 1 or not rooms:
         return
     strokes = shapely.STRtree([shapely.LineString(stroke.ring) for stroke in sketch.strokes])
-    joined = has_doors(graph)
     usual = float(np.median([cell.polygon.area for cell in graph.cells if cell not in rooms] or [0.0]))
     for cell in rooms:
         others = [other.polygon for other in graph.cells if other is not cell]

@@ -221,7 +221,7 @@ def is_quarter(arc: Arc) -> bool:
 
 
 def is_at_wall(arc: Arc, segments: Segments) -> bool:
-    """Tell whether straight walls stand before an arc's hinge and beyond one of its ends, or one at both."""
+    """Tell whether there are straight walls before an arc's hinge and beyond one of its ends."""
     for end in arc.ends:
         along = BESIDE * (end - arc.center)
         places = shapely.points([arc.center - along, end + along])

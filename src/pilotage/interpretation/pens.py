@@ -37,9 +37,8 @@ def by_style(
 ) -> tuple[shapely.Geometry, shapely.Geometry]:
     """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
 
-    The `share` is one of THIN.
-
-    The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
+    `share`, one of THIN, tells what is thin. The outline of what is named a room is its wall, where none is
+    drawn beside it, not even a `solid` one.
     """
     thin = share * usual_pen(seen, sheet)
     main: list[shapely.Geometry] = []

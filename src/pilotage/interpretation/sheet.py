@@ -85,6 +85,6 @@ class Sheet:
     source: str = ""  # path of the file
     photo_from_sheet: Homography | None = None  # to the photo that was straightened, y up in both
     openings: tuple[Polyline, ...] = ()  # doors that the file itself tells, from jamb to jamb
-    to_open: str = GAP  # what whoever makes such a file does in a wall where a door is
+    to_open: str = GAP  # how one makes a door in a wall of such a file
     left_out: tuple[str, ...] = ()  # what the reader could not read, in words: "2 embedded pictures"
     unread: tuple[tuple[float, float], ...] = ()  # where something is written that could not be read

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 import shapely
@@ -190,11 +191,11 @@ def find_walls(
     glass = shapely.union_all([*(shape for mark in panes for shape in (mark.line, mark.area)), *blue])
     called = shapely.union_all([mark.line for mark in seen if named.get(mark.number) is Role.WALL])
     called = called if called.is_empty else shapely.union(called, shapely.union_all([p.line for p in panes]))
-    styles = [by_style(seen, sheet, named, solid, diagonal, share=share) for share in THIN]
+    styles = (by_style(seen, sheet, named, solid, diagonal, share=share) for share in THIN)
     drawn = Drawn(
         solid,
         frozenset(colors),
-        *styles[0],
+        *next(styles),
         panels,
         glass,
         called,
@@ -203,12 +204,11 @@ def find_walls(
         sheet.openings,
         diagonal,
     )
-    ways = [
-        *((way, drawn) for way in (named_walls, painted_walls, faced_walls)),
-        *((black_lines, replace(drawn, main=main, marginal=marginal)) for main, marginal in styles),
-    ]
-    found = (walls for way, one in ways if (walls := way(one)) is not None)
-    return next(found, Walls(solid, None, drawn.colors))
+    tried = chain(
+        (way(drawn) for way in (named_walls, painted_walls, faced_walls, black_lines)),
+        (black_lines(replace(drawn, main=main, marginal=marginal)) for main, marginal in styles),
+    )
+    return next((walls for walls in tried if walls is not None), Walls(solid, None, drawn.colors))
 
 
 def named_walls(drawn: Drawn) -> Walls | None:

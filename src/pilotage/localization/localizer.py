@@ -271,8 +271,9 @@ def search_effort(belief: Belief, window: tuple[Keyframe, ...]) -> float:
 def search_length(belief: Belief, window: tuple[Keyframe, ...]) -> float:
     """Return how far a search looks back at the newest keyframe [m].
 
-    A robot whose place was settled within the window may have been carried from there, or may be lost on a
-    poor drawing. Less of the window finds the one, all of it the other, so they take turns (decision 0037).
+    A robot whose place was settled within the window may have been carried from there: then only the newest
+    metres show where it is. Or it is lost on a poor drawing, and needs all of the window. So the two lengths
+    take turns (decision 0037).
     """
     may_be_carried = belief.settled >= window[0].travel
     return CARRIED if may_be_carried and belief.posterior.searches % 2 else WINDOW

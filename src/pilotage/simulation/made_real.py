@@ -115,7 +115,10 @@ def make_real(
 def cut_doors(
     walls: Array, doors: Sequence[ForgottenDoor], rng: np.random.Generator
 ) -> tuple[list[Array], Array]:
-    """Cut doors that nobody drew somewhere into walls (n, 4); returns them, each (2, 2), and what is left."""
+    """Cut forgotten doors into walls (n, 4), each at random along its wall; all in drawing units.
+
+    Returns the doors, each (2, 2), and the walls that are left.
+    """
     if not doors:
         return [], walls
     shifts = [rng.uniform(-1.0, 1.0) * door.leeway for door in doors]

@@ -56,7 +56,7 @@ class Gateway:
     gateway_id: str
     segment: Array  # (2, 2) from wall to wall, the first cell of `cell_ids` on its left [drawing units]
     cell_ids: tuple[str, str]
-    is_drawn: bool = True  # else it may have been forgotten there
+    is_drawn: bool = True  # else the drawing may have forgotten it
 
     def __post_init__(self) -> None:
         """Copy and freeze the segment."""

@@ -32,8 +32,8 @@ def join_thresholds(
         members = regions == number
         beside = at_border(sides, number)
         widths = tessellation.widths[beside]
-        others = np.where(sides[beside, 0] == number, sides[beside, 1], sides[beside, 0])
-        if len(np.unique(others)) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
+        others = np.setdiff1d(sides[beside], number)
+        if len(others) != 2 or areas[number] > THRESHOLD_DEPTH * widths.min() ** 2:
             continue
         if others.min() < 0 and named[members].any():
             continue
