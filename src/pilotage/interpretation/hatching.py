@@ -4,6 +4,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from pilotage.geometry import Polyline
 from pilotage.interpretation.paint import NOTHING, parts_of
 from pilotage.interpretation.windows import building
 
@@ -81,3 +82,15 @@ def laid_over(
         if walls.contains(beyond).all() and not lines.intersects(beyond).any():
             found.append(part)
     return shapely.union_all(found)
+
+
+def opened_shut(shut: shapely.Geometry) -> tuple[Polyline, ...]:
+    """Return the openings that are drawn shut, from jamb to jamb."""
+    boxes = [shapely.get_coordinates(shapely.oriented_envelope(part)) for part in parts_of(shut)]
+    doors = []
+    for box in boxes:
+        if len(box) == 5:
+            middles = (box[:-1] + box[1:]) / 2.0  # of the sides
+            across = np.hypot(*(middles[:2] - middles[2:]).T)
+            doors.append(Polyline(middles[0::2] if across[0] > across[1] else middles[1::2]))
+    return tuple(doors)

@@ -10,8 +10,10 @@ import shapely
 from pilotage.geometry import Polyline
 from pilotage.interpretation.bars import opened_bars
 from pilotage.interpretation.dashed import opened_dashed
+from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import is_floor
 from pilotage.interpretation.halves import opened_halves
+from pilotage.interpretation.hatching import opened_shut
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
 from pilotage.interpretation.origin import moved_sheet, moved_sketch, origin_of
@@ -21,8 +23,8 @@ from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
 from pilotage.interpretation.patches import opened_bridges
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.solids import rings_of
 from pilotage.interpretation.view import View, common_names, view_of
-from pilotage.interpretation.walls import Walls, opened_shut, rings_of
 from pilotage.interpretation.words import find_names, is_measure, role_of_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap

@@ -9,10 +9,10 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.interpretation.doors import Door
+from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import is_floor
 from pilotage.interpretation.paint import Seen, parts_of, shapes_of
 from pilotage.interpretation.sheet import Color, Role, Sheet
-from pilotage.interpretation.walls import Walls
 
 ALONG = 0.001
 """A mark that comes this near to a wall is part of it, as a share of the drawing's diagonal."""

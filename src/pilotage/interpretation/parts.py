@@ -11,6 +11,7 @@ from pilotage.interpretation.bars import Bar, find_bars, find_fronts, without_ba
 from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import Door, find_doors, without_doors
+from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.halves import Half, find_halves, without_halves
 from pilotage.interpretation.paint import Seen
@@ -19,7 +20,7 @@ from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.signs import find_signs
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.view import View
-from pilotage.interpretation.walls import Walls, find_walls
+from pilotage.interpretation.walls import find_walls
 
 NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""

@@ -215,3 +215,9 @@ def are_walls(solid: shapely.Geometry, lines: shapely.Geometry, gap: float, leas
     """Tell whether solids are the walls of a plan: they enclose its rooms, `least` of what all lines do."""
     inside = enclosed(solid, NOTHING, gap)
     return inside > 0.0 and inside >= least * enclosed(solid, lines, gap)
+
+
+def rings_of(solid: shapely.Geometry) -> list[shapely.LinearRing]:
+    """List the outlines of solids, and holes the other way round."""
+    parts = [part for part in parts_of(solid) if part.geom_type == "Polygon"] if solid is not NOTHING else []
+    return [ring for part in shapely.orient_polygons(parts) for ring in (part.exterior, *part.interiors)]

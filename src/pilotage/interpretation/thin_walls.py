@@ -1,0 +1,73 @@
+"""Walls that are single lines, beside lines in other pens."""
+
+import shapely
+
+from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls
+from pilotage.interpretation.paint import NOTHING, parts_of
+from pilotage.interpretation.partitions import TOUCHING, find_partitions
+from pilotage.interpretation.solids import enclosed, extent
+from pilotage.interpretation.windows import building
+
+NEARLY_ALL = 0.9
+"""Black lines, with the panes of windows in them, are the walls if they enclose this share of what all do."""
+
+GLAZED = (2.0, 0.85)
+"""Windows may be in a color: with gaps so many times as wide closed, too, this share of it is enough."""
+
+LONG = 0.15
+"""A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
+
+EDGE = 0.0005
+"""Lines that are nearer than this share of the drawing's diagonal are one."""
+
+
+def black_lines(drawn: Drawn) -> Walls | None:
+    """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed.
+
+    What leads across a gap of a door's width within the building is a threshold, and parts nothing; on its
+    border it is a window.
+    """
+    if drawn.main.is_empty or drawn.marginal.is_empty:
+        return None
+    gap = drawn.gap(WIDE_GAP)
+    everything = enclosed(NOTHING, drawn.lines, gap)
+    if everything == 0.0:
+        return None
+    edge = EDGE * drawn.diagonal
+    main = shapely.union_all(drawn.main)
+    body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
+    others = shapely.difference(shapely.union_all(drawn.marginal), body)
+    width = drawn.door_width or USUAL_DOOR * drawn.diagonal
+    near = shapely.buffer(body, TOUCHING * width)
+    lines = [part for part in parts_of(shapely.line_merge(others)) if part.geom_type == "LineString"]
+    bridges = [part for part in lines if near.covers(shapely.boundary(part))]
+    glazed = shapely.union_all([main, *(part for part in bridges if not part.is_closed)])
+    ways = ((drawn.main, 1.0, NEARLY_ALL), (drawn.main, *GLAZED), (glazed, 1.0, NEARLY_ALL))
+    if not any(
+        enclosed(NOTHING, enclosing, wide * gap) >= share * everything for enclosing, wide, share in ways
+    ):
+        return None
+    parting = find_partitions(others, body, drawn.closing, width)
+    widest = max(WIDEST * width, gap)
+    within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
+    shapely.prepare(within)
+    outer = [part for part in bridges if not part.is_closed and not within.contains(part)]
+    parting = shapely.union_all(
+        [
+            part
+            for part in parts_of(shapely.line_merge(parting))
+            if extent(part) > widest or not within.contains(part)
+        ]
+    )
+    rest = without_islands(others, body, within, edge)
+    long = [part for part in parts_of(rest) if extent(part) >= LONG * drawn.diagonal]
+    return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
+
+
+def without_islands(
+    lines: shapely.Geometry, body: shapely.Geometry, within: shapely.Geometry, edge: float
+) -> shapely.Geometry:
+    """Leave out lines that stand free within a building and close on themselves: beds and tables."""
+    groups = parts_of(shapely.union_all(shapely.buffer(parts_of(lines), edge)))
+    free = [group for group in groups if within.contains(group) and not group.intersects(body)]
+    return shapely.difference(lines, shapely.union_all([group for group in free if group.interiors]))
