@@ -36,7 +36,7 @@ def explained(seen, drawn, sketch_from_base=HERE):
 def test_walls_together_say_what_the_sensor_model_says():
     building, pose = flat(), Pose2(2.0, 1.5, 0.3)
     model, keyframe = model_of(building), keyframe_at(building, pose)
-    state = np.array([[pose.x, pose.y, pose.theta, 0.0, 0.0, 0.0]]).T
+    state = np.array([[pose.x], [pose.y], [pose.theta], [0.0], [0.0], [0.0]])
 
     walls = explain("here", HERE, (keyframe,), segments_of(building.strokes), model).walls
     told = sum(wall.log_ratio * wall.readings for wall in walls)

@@ -181,7 +181,7 @@ def test_a_place_is_told_where_the_densest_point_lies_between_particles_of_a_sma
     small, large = -2.0, 1.0
     few = [[x, 5.0, 0.0, small, 0.0, 0.0] for x in (4.0, 5.0)]
     many = [[0.5 + 0.9 * k, 1.0, 0.0, large, 0.0, 0.0] for k in range(10)]
-    states = np.array([*few, *many]).T
+    states = np.column_stack([*few, *many])
     weights = np.log(np.array([0.2, 0.2, *[0.06] * 10]))
 
     hypotheses = find_hypotheses(Particles(states, weights), ATLAS)

@@ -54,7 +54,7 @@ def test_no_reading_costs_more_than_chance():
 
 
 def states_at(*poses):
-    return np.array([[pose.x, pose.y, pose.theta, 0.0, 0.0, 0.0] for pose in poses]).T
+    return np.column_stack([[pose.x, pose.y, pose.theta, 0.0, 0.0, 0.0] for pose in poses])
 
 
 def test_the_true_pose_explains_a_scan_better_than_others_do():

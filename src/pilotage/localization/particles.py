@@ -79,7 +79,7 @@ def displacements(states: Array, x: Array | float, y: Array | float) -> Array:
     """Carry a displacement in the robot's frame [m] to the sketch under each particle, (2, n)."""
     count = states.shape[1]
     carried: Array = kernels.displacement.displace(
-        states, np.broadcast_to(np.float64(x), count), np.broadcast_to(np.float64(y), count)
+        states, np.full(count, x, np.float64), np.full(count, y, np.float64)
     )
     return carried
 
