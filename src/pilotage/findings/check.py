@@ -4,9 +4,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
+from pilotage.findings.closed_rooms import drawn_doors, find_closed_areas, find_rooms_without_door
 from pilotage.findings.doors import has_doors
 from pilotage.findings.finding import Finding, Point, Severity
 from pilotage.findings.gaps import find_closed_gaps, find_idle_arrows, find_odd_gateways
+from pilotage.findings.names import find_names, find_stair_rooms
 from pilotage.findings.page import (
     find_far_strokes,
     find_marks_left_out,
@@ -15,14 +17,7 @@ from pilotage.findings.page import (
     no_doors,
     nothing_enclosed,
 )
-from pilotage.findings.rooms import (
-    drawn_doors,
-    find_closed_areas,
-    find_names,
-    find_parts,
-    find_rooms_without_door,
-    find_stair_rooms,
-)
+from pilotage.findings.parts import find_parts
 from pilotage.findings.steps import find_drivable_stairs
 from pilotage.interpretation import GAP, Interpretation
 from pilotage.maps import (

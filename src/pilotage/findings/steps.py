@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.findings.finding import Finding, Severity
-from pilotage.findings.rooms import named
+from pilotage.findings.words import named
 from pilotage.geometry import Array
 from pilotage.interpretation import Interpretation, Role
 from pilotage.maps import CellGraph
