@@ -4,6 +4,7 @@ import zipfile
 
 import numpy as np
 import pytest
+import shapely
 
 from pilotage.errors import FileError
 from pilotage.findings import report
@@ -287,6 +288,20 @@ def test_the_name_of_a_building_names_no_room(tmp_path):
     sheet = read(tmp_path, feature(BOX, building="school", name="Goethe"), feature(BOX, indoor="room"))
 
     assert not sheet.texts
+
+
+def test_the_outline_of_a_building_cuts_no_room(tmp_path):
+    rooms = (feature(BOX, indoor="room"), feature(NEXT, indoor="room"))
+    skewed = feature([(0.4, 0.5), (8.5, 0.9), (8.3, 3.8), (0, 3.5), (0.4, 0.5)], building="school")
+
+    sheet = read(tmp_path, *rooms, skewed)
+
+    outlines = shapely.union_all(
+        [shapely.linestrings(outline.vertices) for mark in sheet.marks for outline in mark.outlines]
+    )
+    inside = shapely.box(0.1, 0.1, 3.9, 2.9), shapely.box(4.1, 0.1, 7.9, 2.9)
+    assert not any(shapely.intersects(outlines, room) for room in inside)
+    assert shapely.length(shapely.intersection(outlines, shapely.box(8.1, 0.0, 9.0, 4.0))) > 2.0
 
 
 def test_walls_and_furniture_name_no_room(tmp_path):

@@ -144,11 +144,17 @@ def draw_walls(
 ) -> None:
     """Draw the walls of all rooms, each once, open at doors and between corridors.
 
-    A door leads from jamb to jamb. `metre` [map units] is how long one is.
+    A door leads from jamb to jamb. The outline of a building cuts no room: it often comes of another survey.
+    `metre` [map units] is how long one is.
     """
     walls = [lines_of(shape) for feature, shape in shown if feature.kind in WALLED]
     spaces = [shape for feature, shape in shown if feature.kind in SPACES]
-    outer = [lines_of(shape) for feature, shape in shown if feature.kind is Kind.BUILDING]
+    rooms = areas([shape for feature, shape in shown if feature.kind in WALLED])
+    outer = [
+        shapely.difference(lines_of(shape), rooms)
+        for feature, shape in shown
+        if feature.kind is Kind.BUILDING
+    ]
     if not walls and not outer:
         outer = [lines_of(shape) for shape in spaces]
     passages = [lines_of(shape) for feature, shape in shown if feature.kind in OPEN]
@@ -177,9 +183,14 @@ def draw_walls(
 
 def between(spaces: Sequence[shapely.Geometry], metre: float) -> shapely.Geometry:
     """Return what lies between rooms that are drawn by their inner faces: walls that have a thickness."""
-    whole = shapely.union_all([space for space in spaces if space.geom_type in ("Polygon", "MultiPolygon")])
+    whole = areas(spaces)
     closed = grown(grown(whole, THICKEST * metre / 2.0), -THICKEST * metre / 2.0)
     return grown(grown(shapely.difference(closed, whole), -WALL_GRID * metre / 2.0), WALL_GRID * metre / 2.0)
+
+
+def areas(shapes: Sequence[shapely.Geometry]) -> shapely.Geometry:
+    """Unite the areas among some shapes."""
+    return shapely.union_all([shape for shape in shapes if shape.geom_type in ("Polygon", "MultiPolygon")])
 
 
 def grown(shape: shapely.Geometry, distance: float) -> shapely.Geometry:
