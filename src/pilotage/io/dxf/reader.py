@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from pilotage.errors import FileError
 from pilotage.interpretation.sheet import Sheet
+from pilotage.io.dxf.mending import mended
 from pilotage.io.files import check_regular, read_bytes
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def read_document(path: Path) -> "Drawing":
     from ezdxf import recover
 
     try:
-        document, _ = recover.read(io.BytesIO(content))
+        document, _ = recover.read(io.BytesIO(mended(content)))
     except MemoryError:
         raise
     except Exception as error:  # the parser may raise anything on a damaged file

@@ -1,0 +1,71 @@
+"""Mend DXF files of small programs, before the library sees them: it refuses some that CAD programs open."""
+
+import re
+from itertools import chain, pairwise
+
+Tag = tuple[bytes, bytes]
+"""A group code and its value, each a line of the file."""
+
+MARKERS = {
+    b"LWPOLYLINE": b"AcDbPolyline",
+    b"MTEXT": b"AcDbMText",
+    b"SPLINE": b"AcDbSpline",
+    b"HATCH": b"AcDbHatch",
+}
+"""Entities that need a marker of their class, and the marker."""
+
+VERSION = re.compile(rb"\$ACADVER\s+1\s+AC\d+")
+SAID = b"$ACADVER\n1\nAC1015"
+HEADER = b"0\nSECTION\n2\nHEADER\n9\n" + SAID + b"\n0\nENDSEC\n"
+"""The first version that needs all markers, and a header that says it."""
+
+COMMON = frozenset((b"5", b"6", b"8", b"62", b"370", b"420"))
+"""Group codes that all entities have, and that stand before the marker."""
+
+LAST_SHORT = 0xFFFF
+"""The last letter that `\\U+XXXX` can write."""
+
+
+def mended(content: bytes) -> bytes:
+    """Write words in ASCII, and mark the classes of entities."""
+    return with_markers(in_ascii(content))
+
+
+def in_ascii(content: bytes) -> bytes:
+    r"""Escape the letters of a file in UTF-8, which not all that write it say; others stay as they are.
+
+    >>> in_ascii("Küche".encode()), in_ascii("Küche".encode("cp1252"))
+    (b'K\\U+00FCche', b'K\xfcche')
+    """
+    if content.isascii():
+        return content
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content
+    beyond = {letter for letter in set(text) if not letter.isascii()}
+    escapes = {ord(letter): f"\\U+{ord(letter):04X}" for letter in beyond if ord(letter) <= LAST_SHORT}
+    return text.translate(escapes).encode("ascii", "replace")
+
+
+def with_markers(content: bytes) -> bytes:
+    """Mark the classes of entities in a file without any marker."""
+    if b"AcDb" in content or not any(kind in content for kind in MARKERS):
+        return content
+    said, count = VERSION.subn(SAID, content, count=1)
+    lines = (said if count else HEADER + content).splitlines()
+    tags = list(zip(lines[::2], lines[1::2], strict=False))
+    starts = [k for k, (code, _) in enumerate(tags) if code.strip() == b"0"]
+    entities = (marked(tags[start:end]) for start, end in pairwise([*starts, len(tags)]))
+    return b"\n".join(chain.from_iterable(chain.from_iterable(entities))) + b"\n"
+
+
+def marked(entity: list[Tag]) -> list[Tag]:
+    """Mark the class of one entity, if it needs it."""
+    head, *rest = entity
+    marker = MARKERS.get(head[1].strip().upper())
+    if marker is None:
+        return entity
+    common = [tag for tag in rest if tag[0].strip() in COMMON]
+    own = [tag for tag in rest if tag[0].strip() not in COMMON]
+    return [head, (b"100", b"AcDbEntity"), *common, (b"100", marker), *own]
