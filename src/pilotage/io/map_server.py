@@ -42,7 +42,7 @@ def read_entries(path: Path) -> dict[str, str]:
     pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
     entries = {key.strip(): value.strip().strip("'\"") for key, value in pairs}
     if "image" not in entries:
-        raise FileError("a map_server file must name an image", path)
+        raise FileError("a map_server file must name an image; of other YAML, give the drawing itself", path)
     return entries
 
 
