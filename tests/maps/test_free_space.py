@@ -3,7 +3,7 @@ import pytest
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.maps import DecompositionSettings, NotEnclosedError, SchematicMap, free_space
+from pilotage.maps import DecompositionSettings, NotEnclosedError, SchematicMap, decompose, free_space
 
 ROOM = [(0, 0), (10, 0), (10, 5), (0, 5), (0, 0)]
 
@@ -51,6 +51,18 @@ def test_a_drawn_gate_closes_though_it_is_wide():
 
     assert pytest.approx(50.0, rel=1e-6) == space.region.area
     assert space.drawn.any()
+
+
+def test_a_way_from_the_jamb_of_a_drawn_door_to_the_next_corner_is_no_door():
+    wall, stair = [(5, 0), (5, 3.9)], [(4.5, 5), (4.5, 8), (8, 8), (8, 5)]
+    strokes = tuple(map(Polyline.through, (ROOM, wall, stair)))
+    door = Polyline.through([(5, 3.9), (5, 5)])
+
+    space = free_space(SchematicMap(strokes, doors=(door,)), DecompositionSettings())
+    cells = decompose(SchematicMap(strokes, doors=(door,)), DecompositionSettings()).cells
+
+    assert space.tessellation.chords[space.drawn][:, :, 0] == pytest.approx(np.array([[5, 5]]), abs=0.01)
+    assert 3 == len(cells)
 
 
 def test_a_blot_is_no_wall():

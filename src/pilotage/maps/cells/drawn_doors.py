@@ -1,5 +1,6 @@
 """Find the openings of doors that are drawn with a leaf or its swing."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +15,9 @@ OFF = 0.5
 
 ALONG = 0.8
 """And if it turns from the door by no more than an angle of this cosine."""
+
+SLANT = 0.2
+"""What turns from the door by so much more [rad] than another chord leads from its jamb to elsewhere."""
 
 WIDTHS = (0.5, 2.2)
 """And if it is so many times as wide: one leaf of two spans half of the opening."""
@@ -37,6 +41,9 @@ def at_doors(tessellation: Tessellation, doors: Sequence[Polyline]) -> NDArray[n
         "ki,ki->k", *(np.diff(lines, axis=1)[:, 0] for lines in (ends[door], tessellation.chords[chord]))
     )
     share = tessellation.widths[chord] / widths[door]
-    is_along = np.abs(along) >= ALONG * widths[door] * tessellation.widths[chord]
-    found[chord[is_along & (share >= WIDTHS[0]) & (share <= WIDTHS[1])]] = True
+    turns = np.arccos(np.minimum(np.abs(along) / (widths[door] * tessellation.widths[chord]), 1.0))
+    is_like = (turns <= math.acos(ALONG)) & (share >= WIDTHS[0]) & (share <= WIDTHS[1])
+    least = np.full(len(doors), np.inf)
+    np.minimum.at(least, door[is_like], turns[is_like])
+    found[chord[is_like & (turns <= least[door] + SLANT)]] = True
     return found
