@@ -161,6 +161,8 @@ def test_the_eye_of_an_o_and_the_dot_of_an_i_belong_to_their_letters():
         ("Оси", Role.IGNORE),
         ("DOTE", Role.IGNORE),
         ("E-POWR", Role.IGNORE),
+        ("site|M-DUCT-SUPP", Role.IGNORE),
+        ("P-FIXT", Role.FURNITURE),
         ("A-FLOR-FIXT", Role.FURNITURE),
         ("A-FLOR-EQPM", Role.FURNITURE),
     ],

@@ -82,10 +82,14 @@ VOCABULARY: Mapping[Role, str] = {
     " compass scalebar watermark logo arrow arrows pfeil pfeile flèche flèches freccia frecce flecha flechas"
     " eje ejes eixo eixos oś osie wymiar wymiary aks akslar ölçü olcu ölçüler olculer kóta kóty méretek"
     " tengely оси ось размер размеры штриховка сетка dote 轴线 轴网 标注 尺寸 图框 填充 寸法 通り芯 基準線"
-    " グリッド 치수 중심선 powr lite sanr htng"
+    " グリッド 치수 중심선"
     " leader mleader multileader hilfslinie hilfslinien hilfskonstruktion guide guides guideline guidelines",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
+
+DISCIPLINE = re.compile(r"(?:.*[|$])?[EFMPT]-[A-Z]{4}\b")
+"""What is no part of a building in the codes of CAD standards: electrical, fire, mechanical, plumbing and
+telecommunications. The name of another file may stand before."""
 
 EDGES = frozenset(("border", "frame"))
 SPACES = frozenset(("room", "rooms", "raum", "räume", "zimmer", "pièce", "salle", "stanza", "sala", "kamer"))
@@ -210,6 +214,8 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
                 continue
             if role is not None and not (of_room and word in EDGES):
                 return role, f"its name is {name!r}"
+        if DISCIPLINE.match(name):
+            return Role.IGNORE, f"its name is {name!r}"
     return None
 
 
