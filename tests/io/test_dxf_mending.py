@@ -106,3 +106,34 @@ def test_words_in_utf_8_are_read_whatever_the_code_page(tmp_path, encoding, page
     path.write_bytes(text.replace("AC1024", "AC1015").replace("Kueche", "Küche").encode(encoding))
 
     assert ["Küche"] == [text.text for text in read_dxf(path).texts]
+
+
+@pytest.mark.parametrize("handle", ["0", "1", "1F"])
+def test_entities_of_the_same_handle_are_all_read(tmp_path, handle):
+    path = tmp_path / "plan.dxf"
+    content = SMALL
+    for kind in ("LWPOLYLINE", "LINE", "MTEXT"):
+        content = content.replace(f"\n{kind}\n", f"\n{kind}\n5\n{handle}\n")
+    path.write_text(content, encoding="utf-8")
+
+    sheet = read_dxf(path)
+
+    assert [2, 1] == [len(sheet.marks), len(sheet.texts)]
+
+
+@pytest.mark.parametrize("taken", ["block_records", "layers"])
+def test_a_drawing_is_read_though_a_layout_has_the_handle_of_something_else(tmp_path, taken):
+    document = ezdxf.new("R2010")
+    space = document.modelspace()
+    space.add_line((0, 0), (4, 0))
+    other = space.layout_key if taken == "block_records" else document.layers.get("0").dxf.handle
+    path = tmp_path / "plan.dxf"
+    document.saveas(path)
+    own = f"\n{space.dxf_layout.dxf.handle}\n"
+    path.write_text(
+        path.read_text().replace(f"  5{own}", f"  5\n{other}\n").replace(f"350{own}", f"350\n{other}\n")
+    )
+
+    (line,) = read_dxf(path).marks
+
+    assert [[0, 0], [4, 0]] == line.outlines[0].vertices.tolist()

@@ -22,13 +22,25 @@ HEADER = b"0\nSECTION\n2\nHEADER\n9\n" + SAID + b"\n0\nENDSEC\n"
 COMMON = frozenset((b"5", b"6", b"8", b"62", b"370", b"420"))
 """Group codes that all entities have, and that stand before the marker."""
 
+HANDLE = re.compile(
+    rb"^([ \t]*0[ \t\r]*\n[ \t]*\d?[A-Z][A-Z0-9_]*[ \t\r]*\n)[ \t]*5[ \t\r]*\n[ \t]*([0-9A-Fa-f]+)[ \t\r]*\n",
+    re.MULTILINE,
+)
+"""The beginning of an entity, and its handle."""
+
+OBJECTS = re.compile(
+    rb"^[ \t]*0[ \t\r]*\n[ \t]*SECTION[ \t\r]*\n[ \t]*2[ \t\r]*\n[ \t]*OBJECTS", re.MULTILINE
+)
+END = b"ENDSEC"
+"""The beginning of the section of what is not drawn, and the end of any section."""
+
 LAST_SHORT = 0xFFFF
 """The last letter that `\\U+XXXX` can write."""
 
 
 def mended(content: bytes) -> bytes:
-    """Write words in ASCII, and mark the classes of entities."""
-    return with_markers(in_ascii(content))
+    """Write words in ASCII, part what has the same handle, and mark the classes of entities."""
+    return with_markers(with_own_handles(in_ascii(content)))
 
 
 def in_ascii(content: bytes) -> bytes:
@@ -46,6 +58,30 @@ def in_ascii(content: bytes) -> bytes:
     beyond = {letter for letter in set(text) if not letter.isascii()}
     escapes = {ord(letter): f"\\U+{ord(letter):04X}" for letter in beyond if ord(letter) <= LAST_SHORT}
     return text.translate(escapes).encode("ascii", "replace")
+
+
+def with_own_handles(content: bytes) -> bytes:
+    """Leave a handle to the first entity that has it: of several, the library would keep but one."""
+    seen = {b"0"}
+
+    def once(found: re.Match[bytes]) -> bytes:
+        handle = found[2].upper()
+        is_taken = handle in seen
+        seen.add(handle)
+        return found[1] if is_taken else found[0]
+
+    return HANDLE.sub(once, content)
+
+
+def without_objects(content: bytes) -> bytes:
+    """Cut out what is not drawn: sheets of paper, groups and styles, which a damaged file can do without."""
+    found = OBJECTS.search(content)
+    end = content.find(END, found.end()) if found is not None else -1
+    return (
+        content[: found.start()] + content[end + len(END) :].lstrip()
+        if found is not None and end > 0
+        else content
+    )
 
 
 def with_markers(content: bytes) -> bytes:

@@ -2,12 +2,13 @@
 
 import io
 import logging
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pilotage.errors import FileError
 from pilotage.interpretation.sheet import Sheet
-from pilotage.io.dxf.mending import mended
+from pilotage.io.dxf.mending import mended, without_objects
 from pilotage.io.files import check_regular, read_bytes
 
 if TYPE_CHECKING:
@@ -56,13 +57,15 @@ def read_document(path: Path) -> "Drawing":
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # else it writes warnings to the terminal
     from ezdxf import recover
 
+    drawn = mended(content)
     try:
-        document, _ = recover.read(io.BytesIO(mended(content)))
+        return recover.read(io.BytesIO(drawn))[0]
     except MemoryError:
         raise
     except Exception as error:  # the parser may raise anything on a damaged file
+        with suppress(Exception):
+            return recover.read(io.BytesIO(without_objects(drawn)))[0]
         raise FileError(f"a DXF file cannot be read ({first_line(error)})", path) from error
-    return document
 
 
 def first_line(error: Exception) -> str:
