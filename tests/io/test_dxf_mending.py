@@ -3,6 +3,7 @@
 import ezdxf
 import pytest
 
+from pilotage.errors import FileError
 from pilotage.io.dxf import read_dxf
 
 SMALL = """0
@@ -137,3 +138,12 @@ def test_a_drawing_is_read_though_a_layout_has_the_handle_of_something_else(tmp_
     (line,) = read_dxf(path).marks
 
     assert [[0, 0], [4, 0]] == line.outlines[0].vertices.tolist()
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.9])
+def test_a_file_that_ends_in_the_middle_is_said_to(tmp_path, share):
+    path = tmp_path / "plan.dxf"
+    path.write_text(SMALL[: int(share * len(SMALL))], encoding="utf-8")
+
+    with pytest.raises(FileError, match="ends in the middle"):
+        read_dxf(path)

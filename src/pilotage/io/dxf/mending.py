@@ -73,6 +73,11 @@ def with_own_handles(content: bytes) -> bytes:
     return HANDLE.sub(once, content)
 
 
+def is_cut_off(content: bytes) -> bool:
+    """Tell whether a file ends within a section, as one that was not copied to its end."""
+    return content.rfind(END) < content.rfind(b"SECTION")
+
+
 def without_objects(content: bytes) -> bytes:
     """Cut out what is not drawn: sheets of paper, groups and styles, which a damaged file can do without."""
     found = OBJECTS.search(content)

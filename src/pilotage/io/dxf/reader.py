@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pilotage.errors import FileError
 from pilotage.interpretation.sheet import Sheet
-from pilotage.io.dxf.mending import mended, without_objects
+from pilotage.io.dxf.mending import is_cut_off, mended, without_objects
 from pilotage.io.files import check_regular, read_bytes
 
 if TYPE_CHECKING:
@@ -54,6 +54,8 @@ def read_document(path: Path) -> "Drawing":
     """Read a DXF file, repairing what can be repaired."""
     check_regular(path)
     content = read_bytes(path, LARGEST)
+    if is_cut_off(content):
+        raise FileError("a DXF file ends in the middle: save it or copy it once more", path)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # else it writes warnings to the terminal
     from ezdxf import recover
 
