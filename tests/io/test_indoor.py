@@ -54,6 +54,17 @@ def test_rooms_share_a_wall_and_bear_their_names_in_metres(tmp_path):
     assert {name for mark in sheet.marks for name in mark.names} == {"wall"}
 
 
+def test_tags_of_openstreetmap_may_be_kept_by_themselves(tmp_path):
+    kitchen, bath = (
+        feature(points, type="way", id=1, tags={"indoor": "room", "name": "Kitchen"})
+        for points in (BOX, NEXT)
+    )
+    door = feature([(4, 1.5)], "Point", type="node", id=2, tags={"door": "yes"})
+    closed, opened = read(tmp_path, kitchen, bath), read(tmp_path, kitchen, bath, door)
+    assert ["Kitchen", "Kitchen"] == [text.text for text in opened.texts]
+    assert length(opened) < length(closed)
+
+
 def test_doors_open_the_walls(tmp_path):
     rooms = (feature(BOX, indoor="room"), feature(NEXT, indoor="room"))
     door = feature([(4, 1.5)], "Point", door="yes", width="1.2")

@@ -138,9 +138,12 @@ def imdf_levels(found: list[Json]) -> dict[str, str]:
 
 
 def properties_of(raw: Json) -> Json:
-    """Return what a feature says of itself."""
+    """Return what a feature says of itself; converters keep the tags of OpenStreetMap by themselves."""
     properties = raw.get("properties")
-    return properties if isinstance(properties, dict) else {}
+    if not isinstance(properties, dict):
+        return {}
+    tags = properties.get("tags")
+    return properties | tags if isinstance(tags, dict) else properties
 
 
 def read_feature(raw: Json, index: int) -> Feature | None:
