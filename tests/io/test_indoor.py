@@ -65,6 +65,18 @@ def test_tags_of_openstreetmap_may_be_kept_by_themselves(tmp_path):
     assert length(opened) < length(closed)
 
 
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("roomName", "objectType"), ("Room Name", "Room-Type"), ("Raum", "Art"), ("nom", "TYPE")],
+)
+def test_names_and_kinds_are_told_in_many_spellings(tmp_path, name, kind):
+    kitchen = feature(BOX, **{name: "Kitchen", kind: "room"})
+    closed = read(tmp_path, kitchen)
+    opened = read(tmp_path, kitchen, feature([(4, 1), (4, 2)], "LineString", **{kind: "door"}))
+    assert ["Kitchen"] == [text.text for text in closed.texts]
+    assert length(opened) == pytest.approx(length(closed) - 1.0, abs=0.2)
+
+
 def test_doors_open_the_walls(tmp_path):
     rooms = (feature(BOX, indoor="room"), feature(NEXT, indoor="room"))
     door = feature([(4, 1.5)], "Point", door="yes", width="1.2")

@@ -107,9 +107,11 @@ TYPES = (
     "type",
     "typ",
     "tipo",
+    "art",
     "kind",
     "class",
     "use_type",
+    "room_type",
     "category",
 )
 """Where maps that keep to no standard say what a feature is, in words."""

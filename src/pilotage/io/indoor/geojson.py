@@ -11,6 +11,7 @@ from pathlib import Path
 import shapely
 
 from pilotage.errors import FileError
+from pilotage.interpretation.names import name_words
 from pilotage.interpretation.sheet import Sheet
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.indoor.features import Feature, Kind, Tags, kind_of, levels_of
@@ -18,7 +19,22 @@ from pilotage.io.indoor.floor import floor_sheet
 from pilotage.io.json_files import LARGEST, Json, objects, read_json, words
 from pilotage.io.scales import length_in_metres
 
-NAMES = ("name", "label", "room_name", "title", "text", "ref", "room_number", "room_no", "number")
+NAMES = (
+    *(
+        "name",
+        "label",
+        "room_name",
+        "title",
+        "text",
+        "bezeichnung",
+        "raumname",
+        "raum",
+        "nom",
+        "nombre",
+        "nome",
+    ),
+    *("ref", "room_number", "room_no", "raumnummer", "number"),
+)
 """Where the name of a place is told, the likeliest first."""
 
 LEVELS = ("level", "floor", "storey", "etage")
@@ -148,8 +164,9 @@ def properties_of(raw: Json) -> Json:
 
 def read_feature(raw: Json, index: int) -> Feature | None:
     """Read one feature; None if it draws nothing."""
-    said = {key.lower(): text for key, value in properties_of(raw).items() if (text := text_of(value))}
-    tags = said | ({"feature_type": told} if (told := words(raw.get("feature_type"))) else {})
+    told = {key: text for key, value in properties_of(raw).items() if (text := text_of(value))}
+    said = {form: text for key, text in told.items() for form in (key.lower(), "_".join(name_words(key)))}
+    tags = said | ({"feature_type": standard} if (standard := words(raw.get("feature_type"))) else {})
     kind = kind_of(tags)
     shape = read_shape(raw.get("geometry"))
     if kind is None or shape is None:
