@@ -29,6 +29,11 @@ def rooms():
     return pixels
 
 
+@pytest.mark.parametrize("image", ["/home/someone/maps/map.png", r"C:\maps\map.png", "../maps/map.png"])
+def test_the_picture_of_a_map_that_was_moved_is_found_beside_it(tmp_path, image):
+    assert 8 == len(open_world(saved_map(tmp_path, rooms(), image=image)).segments)
+
+
 def test_a_map_is_as_large_as_it_says_and_lies_where_it_says(tmp_path):
     world = open_world(saved_map(tmp_path, rooms()))
     inside = ORIGIN.inverse() @ world.segments.reshape(-1, 2)

@@ -3,7 +3,7 @@
 As a drawing it has no scale; `io/world` believes its resolution and its origin, too.
 """
 
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
@@ -53,11 +53,17 @@ def free_cells(entries: dict[str, str], path: Path) -> Mask:
     """
     free_below = number(entries, "free_thresh", path, FREE_BELOW)
     negated = bool(number(entries, "negate", path, 0.0))
-    gray = read_picture(path.parent / entries["image"]).colors.mean(axis=2)
+    gray = read_picture(picture_of(entries["image"], path)).colors.mean(axis=2)
     free = (gray if negated else 1.0 - gray) < free_below
     if not negated and (gray > UNKNOWN + HALF).any():  # else it is what free cells were painted in
         free &= np.abs(gray - UNKNOWN) > HALF
     return np.asarray(free)
+
+
+def picture_of(image: str, path: Path) -> Path:
+    """Return where the picture of a map is: where the file says, or beside it if the map was moved."""
+    named, beside = path.parent / image, path.parent / PureWindowsPath(image).name
+    return beside if beside.is_file() and not named.exists() else named
 
 
 def number(entries: dict[str, str], name: str, path: Path, otherwise: float | None = None) -> float:
