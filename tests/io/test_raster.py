@@ -146,9 +146,13 @@ def test_a_map_server_file_says_what_is_free(tmp_path):
     assert 2 == len(decompose(open_map(tmp_path / "map.yaml"), DecompositionSettings()).cells)
 
 
-def test_a_negated_map_server_file_turns_shades_round(tmp_path):
-    saved(tmp_path / "map.png", 255 - two_rooms(GRAY, DARK, LIGHT))
-    (tmp_path / "map.yml").write_text('image: "map.png"\nnegate: 1\nfree_thresh: 0.1\n')
+@pytest.mark.parametrize(
+    ("negate", "is_negated"), [("1", True), ("true", True), ("false", False), ("No", False)]
+)
+def test_a_negated_map_server_file_turns_shades_round(tmp_path, negate, is_negated):
+    shades = two_rooms(GRAY, DARK, LIGHT)
+    saved(tmp_path / "map.png", 255 - shades if is_negated else shades)
+    (tmp_path / "map.yml").write_text(f'image: "map.png"\nnegate: {negate}\nfree_thresh: 0.1\n')
 
     assert 2 == len(decompose(open_map(tmp_path / "map.yml"), DecompositionSettings()).cells)
 

@@ -34,6 +34,12 @@ def test_the_picture_of_a_map_that_was_moved_is_found_beside_it(tmp_path, image)
     assert 8 == len(open_world(saved_map(tmp_path, rooms(), image=image)).segments)
 
 
+def test_the_origin_may_be_listed_line_by_line(tmp_path):
+    listed = open_world(saved_map(tmp_path, rooms(), origin="\n- -3.0\n- 5.0\n- 0.3"))
+
+    np.testing.assert_array_equal(open_world(saved_map(tmp_path, rooms())).segments, listed.segments)
+
+
 def test_a_map_is_as_large_as_it_says_and_lies_where_it_says(tmp_path):
     world = open_world(saved_map(tmp_path, rooms()))
     inside = ORIGIN.inverse() @ world.segments.reshape(-1, 2)

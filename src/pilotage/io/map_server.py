@@ -18,6 +18,9 @@ FREE_BELOW = 0.196
 UNKNOWN, HALF = 205.0 / 255.0, 0.5 / 255.0
 """The shade of cells that no one has seen, and half of one; by the threshold of ROS 2 they would be free."""
 
+YES, NO = ("true", "yes", "on"), ("false", "no", "off")
+"""How YAML answers, beside by 1 and 0."""
+
 
 def read_map_server(path: Path) -> SchematicMap:
     """Read a map as a drawing in cells, y up and so below 0: the contours of free space.
@@ -28,19 +31,26 @@ def read_map_server(path: Path) -> SchematicMap:
 
 
 def read_entries(path: Path) -> dict[str, str]:
-    """Read the plain `key: value` lines of the YAML file; one of them names an image.
+    """Read the plain `key: value` lines and the lists of the YAML file; one of them names an image.
 
     Raises FileError if it cannot be read, or names no image.
     """
     check_regular(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as error:
         raise FileError("there is no such file", path) from error
     except (OSError, ValueError) as error:
         raise FileError(f"a map_server file cannot be read ({error})", path) from error
-    pairs = [line.split("#")[0].split(":", 1) for line in text.splitlines() if ":" in line.split("#")[0]]
-    entries = {key.strip(): value.strip().strip("'\"") for key, value in pairs}
+    entries: dict[str, str] = {}
+    name = ""
+    for line in text.splitlines():
+        plain = line.split("#")[0]
+        if ":" in plain:
+            name, value = (part.strip() for part in plain.split(":", 1))
+            entries[name] = value.strip("'\"")
+        elif name and plain.strip().startswith("- "):  # a list, an item a line
+            entries[name] += f" {plain.strip()[2:]}"
     if "image" not in entries:
         raise FileError("a map_server file must name an image; of other YAML, give the drawing itself", path)
     return entries
@@ -52,7 +62,8 @@ def free_cells(entries: dict[str, str], path: Path) -> Mask:
     Raises FileError if the picture cannot be read, or an entry is no number.
     """
     free_below = number(entries, "free_thresh", path, FREE_BELOW)
-    negated = bool(number(entries, "negate", path, 0.0))
+    is_told = entries.get("negate", "").lower()
+    negated = is_told in YES or (is_told not in NO and bool(number(entries, "negate", path, 0.0)))
     gray = read_picture(picture_of(entries["image"], path)).colors.mean(axis=2)
     free = (gray if negated else 1.0 - gray) < free_below
     if not negated and (gray > UNKNOWN + HALF).any():  # else it is what free cells were painted in
