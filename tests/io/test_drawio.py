@@ -144,6 +144,13 @@ def test_labels_lose_their_tags_and_keep_their_lines(tmp_path):
     assert first.position[0] > second.position[0]
 
 
+def test_other_pages_are_told_where_the_first_is_empty(tmp_path):
+    with pytest.raises(
+        FileError, match=r"found none \(left out: other pages \(1\): Plan; choose one by .*#Plan\)"
+    ):
+        read(tmp_path, mxfile(("Cover", model()), ("Plan", model(vertex()))))
+
+
 def test_colors_and_opacity(tmp_path):
     (mark,) = read(
         tmp_path, model(vertex(style="ellipse;fillColor=#000000;strokeColor=none;opacity=50"))

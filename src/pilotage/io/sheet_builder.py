@@ -120,7 +120,7 @@ class SheetBuilder:
 
         Raises FileError if the sheet is empty.
         """
-        left_out = tuple(f"{what} ({number:,})" for what, number in sorted(self.left_out.items()))
+        left_out = (*(f"{what} ({number:,})" for what, number in sorted(self.left_out.items())), *remarks)
         if not self.marks:
             reason = f" (left out: {', '.join(left_out)})" if left_out else ""
             raise FileError(f"a drawing needs at least one visible stroke, found none{reason}", self.path)
@@ -133,7 +133,7 @@ class SheetBuilder:
             y_down=self.y_down,
             source=str(self.path),
             openings=tuple(self.openings),
-            left_out=left_out + tuple(remarks),
+            left_out=left_out,
         )
 
     def _check_size(self) -> None:
