@@ -77,6 +77,16 @@ def test_names_and_kinds_are_told_in_many_spellings(tmp_path, name, kind):
     assert length(opened) == pytest.approx(length(closed) - 1.0, abs=0.2)
 
 
+@pytest.mark.parametrize(
+    ("before", "between", "after"), [("[", ",\n", "]"), ("", "\n", ""), ("\x1e", "\n\x1e", "\n")]
+)
+def test_features_may_be_listed_or_streamed(tmp_path, before, between, after):
+    features = (feature(BOX, indoor="room", name="Kitchen"), feature(NEXT, indoor="room", name="Bath"))
+    path = tmp_path / "plan.geojson"
+    path.write_text(before + between.join(map(json.dumps, features)) + after)
+    assert ["Kitchen", "Bath"] == [text.text for text in read_geojson(path).texts]
+
+
 def test_doors_open_the_walls(tmp_path):
     rooms = (feature(BOX, indoor="room"), feature(NEXT, indoor="room"))
     door = feature([(4, 1.5)], "Point", door="yes", width="1.2")

@@ -30,6 +30,8 @@ def archive(name):
         ("a.xml", b"<mxfile/>", Kind.DRAWIO),
         ("a.json", b'{"type": "excalidraw"}', Kind.EXCALIDRAW),
         ("a.json", b'{"type": "FeatureCollection"}', Kind.GEOJSON),
+        ("a.json", b'[{"type": "Feature"}]', Kind.GEOJSON),
+        ("a.geojsonl", b'\x1e{"type": "Feature"}\n', Kind.GEOJSON),
         ("a.osm", b"<osm version='0.6'/>", Kind.OSM),
         ("a.zip", archive("venue/unit.geojson"), Kind.IMDF),
         ("map.yaml", b"image: a.png", Kind.MAP_SERVER),

@@ -18,15 +18,44 @@ def read_json(path: Path, kind: str) -> Json:
 
     Raises FileError if it is missing or damaged.
     """
+    found = decoded(text_in(path, kind), path, kind)
+    if not isinstance(found, dict):
+        raise FileError(f"{kind} must hold an object", path)
+    return found
+
+
+def read_json_objects(path: Path, kind: str) -> list[Json]:
+    """Read a JSON file that holds an object, a list of them, or one a line as they are streamed (RFC 8142).
+
+    Raises FileError as `read_json` does.
+    """
+    text = text_in(path, kind).strip("\x1e \t\r\n")
+    lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
+    if len(lines) > 1 and all(line.startswith("{") and line.endswith("}") for line in lines if line):
+        text = f"[{','.join(filter(None, lines))}]"
+    found = decoded(text, path, kind)
+    listed = objects(found if isinstance(found, list) else [found])
+    if not listed:
+        raise FileError(f"{kind} must hold an object", path)
+    return listed
+
+
+def text_in(path: Path, kind: str) -> str:
+    """Read a file in UTF-8."""
     check_regular(path)
-    content = read_bytes(path, LARGEST)
     try:
-        found = json.loads(content.decode("utf-8-sig"))
+        return read_bytes(path, LARGEST).decode("utf-8-sig")
+    except ValueError as error:
+        raise FileError(f"{kind} cannot be read ({str(error)[:100]})", path) from error
+
+
+def decoded(text: str, path: Path, kind: str) -> object:
+    """Decode JSON."""
+    try:
+        found: object = json.loads(text)
     except (ValueError, RecursionError) as error:
         reason = "it is nested too deeply" if isinstance(error, RecursionError) else f"{error}"
         raise FileError(f"{kind} cannot be read ({reason[:100]})", path) from error
-    if not isinstance(found, dict):
-        raise FileError(f"{kind} must hold an object", path)
     return found
 
 

@@ -147,12 +147,12 @@ SIGNATURES: tuple[tuple[re.Pattern[bytes], Kind | str], ...] = (
 def kinds_of(head: bytes, path: Path) -> Iterator[Kind | str]:
     """Yield what the beginning of a file says of its kind, the surest first."""
     yield from (kind for begins, kind in SIGNATURES if begins.match(head))
-    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    text = head.removeprefix(b"\xef\xbb\xbf").lstrip(b"\x1e \t\r\n")
     if head.startswith(b"PK\x03\x04"):
         yield kind_of_archive(path)
     if text.startswith(b"<"):
         yield from kinds_of_xml(text)
-    if text.startswith(b"{"):
+    if text.startswith((b"{", b"[")):
         yield from kinds_of_json(text)
     if not text and path.stat().st_size == 0:
         yield "empty"

@@ -16,7 +16,7 @@ from pilotage.interpretation.sheet import Sheet
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.indoor.features import Feature, Kind, Tags, kind_of, levels_of
 from pilotage.io.indoor.floor import floor_sheet
-from pilotage.io.json_files import LARGEST, Json, objects, read_json, words
+from pilotage.io.json_files import LARGEST, Json, objects, read_json_objects, words
 from pilotage.io.scales import length_in_metres
 
 NAMES = (
@@ -66,10 +66,12 @@ def read_geojson(path: Path, level: str | None = None) -> Sheet:
     Degrees become metres from the lower left corner of the map.
     Raises FileError if it is missing or damaged, has no such level, or shows nothing.
     """
-    collections = [read_json(path, "a GeoJSON file")]
+    collections = read_json_objects(path, "a GeoJSON file")
     if path.stem == "unit":
         beside = (path.with_name(f"{name}{path.suffix}") for name in IMDF_FILES if name != "unit")
-        collections += [read_json(file, "a GeoJSON file") for file in beside if file.exists()]
+        collections += [
+            found for file in beside if file.exists() for found in read_json_objects(file, "a GeoJSON file")
+        ]
     return collections_sheet(collections, path, level)
 
 
