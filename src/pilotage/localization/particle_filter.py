@@ -25,7 +25,7 @@ from pilotage.localization.tracks import (
     rare,
 )
 
-CARRIED = 0.1
+CARRIED = 0.2
 """Probability that the robot was carried where a scan shows another place than those before."""
 MIN_TRAVEL = 0.05
 """[m] of travel since a search that counts at least: a robot that only turns may be elsewhere, too."""
