@@ -81,6 +81,13 @@ def test_walls_that_are_named_need_no_doors():
     assert are_joined((*outer, *inner, stroke((70, 20), (80, 20))))
 
 
+def test_a_frame_of_two_lines_around_the_sheet_is_not_the_only_wall():
+    frame = [box(-60 - k, -60 - k, 200 + k, 140 + k, pen=Pen(BLACK, 1.0)) for k in (0, 4)]
+    walls = [replace(mark, names=("walls",)) for mark in WITH_GAP]
+
+    assert {"bath", "hall"} <= {cell.label for cell in graph_of((*frame, *walls)).cells}
+
+
 def test_a_wall_whose_faces_nearly_meet_parts_rooms():
     outer = (box(-2, -2, 102, 82, pen=Pen(BLACK, 1.0)), box(0, 0, 100, 80, pen=Pen(BLACK, 1.0)))
     wedge = [stroke((50, 0), (50, 80)), stroke((50.01, 0), (51.5, 80))]

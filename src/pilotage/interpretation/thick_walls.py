@@ -29,6 +29,9 @@ FACED = 0.5
 """Where no door is drawn, two faces are of walls if these enclose this share of what all lines do, not of a
 corridor."""
 
+NAMED = 0.5
+"""Two faces are of a frame and of no walls if these leave out more than this share of what is named wall."""
+
 
 def named_walls(drawn: Drawn) -> Walls | None:
     """Fill what lies between two faces that are named walls; None if few doors stand in them."""
@@ -72,10 +75,16 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         drawn.lines,
         gap,
         FACED if drawn.door_width is None else ENCLOSING,
-    ):
+    ) or leaves_out(walls, drawn.named, thickness):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     cut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")
     drawn = replace(drawn, main=shapely.difference(drawn.main, cut))
     walls = shapely.difference(walls, cut)
     return Walls(walls, drawn.thin_beside(walls, gap, thickness), drawn.colors, shut)
+
+
+def leaves_out(walls: shapely.Geometry, named: shapely.Geometry, thickness: float) -> bool:
+    """Tell whether most of the lines that are named walls lie elsewhere."""
+    left = shapely.difference(named, shapely.buffer(walls, SLIVER * thickness))
+    return float(left.length) > NAMED * float(named.length)
