@@ -7,10 +7,11 @@ import shapely
 
 from pilotage.interpretation.names import is_room
 from pilotage.interpretation.paint import Seen, parts_of
-from pilotage.interpretation.sheet import Role, Sheet
+from pilotage.interpretation.sheet import Pen, Role, Sheet
 
 COLORFUL = 0.45
-"""A line is in a color if its channels differ by this much; ink in a photo is paler."""
+"""A line is in a color if its channels differ by this much; ink in a photo is paler. It tells nothing where
+most ink is in a color."""
 
 THIN = (0.5, 1.0 / 3.0)
 """A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
@@ -40,17 +41,17 @@ def by_style(
     `share`, one of THIN, tells what is thin. The outline of what is named a room is its wall, where none is
     drawn beside it, not even a `solid` one.
     """
-    thin = share * usual_pen(seen, sheet)
+    usual = usual_pen(seen, sheet)
+    thin = share * usual.width
+    is_black = not is_colored(usual)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
     rooms: list[shapely.Geometry] = []
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
-            is_colored = max(pen.color) - min(pen.color) >= COLORFUL
-            is_thin = 0.0 < pen.width < thin
-            is_named = named.get(mark.number) is Role.WALL
-            is_marginal = pen.dashed or (not is_named and (is_colored or is_thin))
+            is_other = (is_black and is_colored(pen)) or 0.0 < pen.width < thin
+            is_marginal = pen.dashed or (is_other and named.get(mark.number) is not Role.WALL)
             is_outline = is_room(sheet.marks[mark.number].names[-1:])
             (rooms if is_marginal and is_outline else marginal if is_marginal else main).append(mark.line)
     (marginal if are_walled(rooms, [*main, solid], BESIDE * diagonal) else main).extend(rooms)
@@ -67,9 +68,16 @@ def are_walled(rooms: list[shapely.Geometry], walls: list[shapely.Geometry], rea
     return float(np.median(shares)) > WALLED
 
 
-def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> float:
-    """Find the width of the pen that draws the middle of all ink, from the narrowest pen to the widest."""
-    pens = [(pen.width, mark.line.length) for mark in seen if (pen := sheet.marks[mark.number].pen)]
-    widths, lengths = np.array(sorted(pens)).reshape(-1, 2).T
-    ink = np.cumsum(widths * lengths)
-    return float(widths[np.searchsorted(ink, ink[-1] / 2.0)]) if len(ink) else 0.0
+def is_colored(pen: Pen) -> bool:
+    """Tell whether a pen draws in a color, neither black nor gray."""
+    return max(pen.color) - min(pen.color) >= COLORFUL
+
+
+def usual_pen(seen: Sequence[Seen], sheet: Sheet) -> Pen:
+    """Find the pen that draws the middle of all ink, from the narrowest pen to the widest."""
+    pens = [(pen, mark.line.length) for mark in seen if (pen := sheet.marks[mark.number].pen)]
+    if not pens:
+        return Pen()
+    pens.sort(key=lambda drawn: drawn[0].width)
+    ink = np.cumsum([pen.width * length for pen, length in pens])
+    return pens[int(np.searchsorted(ink, ink[-1] / 2.0))][0]
