@@ -16,3 +16,14 @@ def test_where_all_is_drawn_in_one_color_lines_less_than_half_as_wide_as_walls_a
 
     assert [*[Role.WALL] * 3, Role.FURNITURE] == roles(marks)
     assert len(graph_of(WITH_GAP).cells) == len(graph_of(marks).cells)
+
+
+def test_a_long_thin_wall_is_one_though_shelves_stand_along_it():
+    outer = stroke((5, 0), (100, 0), (100, 75)), stroke((95, 80), (0, 80), (0, 5))  # ways out at two corners
+    wall = stroke((50, 0), (50, 36), width=0.3)
+    shelves = [stroke((50, y), (44, y), (44, y + 8), (50, y + 8), (50, y), width=0.3) for y in (6, 18)]
+
+    found = interpret(Sheet((*outer, wall, *shelves))).sketch.strokes
+
+    assert 3 == len(found)
+    assert any([50.0, 36.0] in line.vertices.tolist() for line in found)

@@ -1,6 +1,8 @@
 """Walls that are single lines, beside lines in other pens."""
 
+import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls
 from pilotage.interpretation.paint import NOTHING, parts_of
@@ -59,15 +61,16 @@ def black_lines(drawn: Drawn) -> Walls | None:
             if extent(part) > widest or not within.contains(part)
         ]
     )
-    rest = without_islands(others, body, within, edge)
+    whole = shapely.difference(parts_of(drawn.marginal), body)  # what touches a line cuts it only in `others`
+    rest = without_islands(whole, body, within, edge)
     long = [part for part in parts_of(rest) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
 
 
 def without_islands(
-    lines: shapely.Geometry, body: shapely.Geometry, within: shapely.Geometry, edge: float
-) -> shapely.Geometry:
+    lines: NDArray[np.object_], body: shapely.Geometry, within: shapely.Geometry, edge: float
+) -> NDArray[np.object_]:
     """Leave out lines that stand free within a building and close on themselves: beds and tables."""
     groups = parts_of(shapely.union_all(shapely.buffer(parts_of(lines), edge)))
     free = [group for group in groups if within.contains(group) and not group.intersects(body)]
-    return shapely.difference(lines, shapely.union_all([group for group in free if group.interiors]))
+    return np.asarray(shapely.difference(lines, shapely.union_all([one for one in free if one.interiors])))
