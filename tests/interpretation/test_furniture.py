@@ -2,8 +2,12 @@
 
 from dataclasses import replace
 
-from flats import RED, WITH_GAP, graph_of, stroke
-from pilotage.interpretation import Role, Sheet, interpret
+import pytest
+
+from flats import BLACK, OUTSIDE, RED, WITH_GAP, are_joined, box, graph_of, stroke
+from pilotage.interpretation import Pen, Role, Sheet, Text, interpret
+
+THIN, CREAM = Pen(BLACK, 0.3), (0.95, 0.92, 0.85)
 
 
 def roles(marks):
@@ -27,3 +31,24 @@ def test_a_long_thin_wall_is_one_though_shelves_stand_along_it():
 
     assert 3 == len(found)
     assert any([50.0, 36.0] in line.vertices.tolist() for line in found)
+
+
+@pytest.mark.parametrize("sides", [(0.6, 60, 44, 79.4), (10, 10, 40, 30)], ids=["a counter", "an island"])
+def test_what_is_filled_within_a_thin_line_is_furniture_however_large(sides):
+    furniture = box(*sides, pen=THIN, fill=CREAM)
+
+    assert Role.FURNITURE is roles((*WITH_GAP, furniture))[-1]
+    assert are_joined((*WITH_GAP, furniture))
+
+
+@pytest.mark.parametrize(("words", "role"), [("cinema", Role.WALL), ("sofa", Role.FURNITURE)])
+def test_what_is_filled_within_a_thin_line_is_a_room_if_it_has_the_name_of_one(words, role):
+    sheet = Sheet((*WITH_GAP, box(0.6, 50, 40, 79.4, pen=THIN, fill=CREAM)), (Text(words, (20, 60)),))
+
+    assert role is interpret(sheet).meanings[-1].role
+
+
+def test_what_is_filled_within_thin_lines_are_rooms_where_they_cover_most_of_a_building():
+    rooms = [box(left, 0, left + 50, 80, pen=THIN, fill=CREAM) for left in (0, 50)]
+
+    assert 2 == len(graph_of((OUTSIDE, *rooms)).cells)

@@ -30,6 +30,12 @@ USUAL_GAP, WIDE_GAP = 0.04, 0.08
 HALVED = 3
 """So many times these are halved at most."""
 
+FURNISHED = 0.4
+"""Things are furniture if they cover less than this share of what all lines enclose together, else rooms."""
+
+GRAIN = 0.1
+"""Their outlines are closed up to this share of a gap."""
+
 AT_DOOR = 0.25
 """A wall is beside a door if it is this near to its hinge, as a share of its width."""
 
@@ -51,7 +57,8 @@ class Drawn:
     solid: shapely.Geometry  # areas in the colors of walls
     colors: frozenset[Color]
     main: shapely.Geometry  # lines in black or gray, as they were drawn: they may cross and overlap
-    marginal: shapely.Geometry  # lines in a color, dashed and thin ones, likewise
+    loose: shapely.Geometry  # lines in a color, dashed and thin ones, likewise
+    things: shapely.Geometry  # such lines that are the outline of a fill
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows, or painted as such
     named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
@@ -63,7 +70,13 @@ class Drawn:
     @cached_property
     def lines(self) -> shapely.Geometry:
         """All lines."""
-        return shapely.multilinestrings(np.concatenate([parts_of(self.main), parts_of(self.marginal)]))
+        return joint(self.main, self.loose, self.things)
+
+    def parting(self, gap: float) -> shapely.Geometry:
+        """Lines in a color, dashed and thin ones that may part rooms: filled furniture does not."""
+        covered = enclosed(NOTHING, self.things, GRAIN * gap)
+        is_furniture = covered < FURNISHED * enclosed(self.solid, self.lines, gap)
+        return self.loose if is_furniture else joint(self.loose, self.things)
 
     @cached_property
     def openings(self) -> shapely.Geometry:
@@ -107,6 +120,11 @@ class Drawn:
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
         edges = floor_edges(self.floors, walls, thickness, gap)
-        lines = shapely.multilinestrings(np.concatenate([parts_of(self.lines), parts_of(edges)]))
+        lines = joint(self.main, self.parting(gap), edges)
         parting = find_partitions(lines, walls, self.closing, self.door_width or gap)
         return shapely.union(parting, edges)
+
+
+def joint(*lines: shapely.Geometry) -> shapely.Geometry:
+    """Put lines together as they are."""
+    return shapely.multilinestrings(np.concatenate([parts_of(some) for some in lines]))

@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import shapely
 
-from pilotage.interpretation.names import is_room
+from pilotage.interpretation.names import guessed_role, is_room
 from pilotage.interpretation.paint import Seen, parts_of
-from pilotage.interpretation.sheet import Pen, Role, Sheet
+from pilotage.interpretation.paper import bounds_of, holds
+from pilotage.interpretation.sheet import Bounds, Mark, Pen, Role, Sheet, Text
+from pilotage.interpretation.words import is_measure, role_of_words
 
 COLORFUL = 0.45
 """A line is in a color if its channels differ by this much; ink in a photo is paler. It tells nothing where
@@ -35,17 +37,20 @@ def by_style(
     diagonal: float,
     *,
     share: float,
-) -> tuple[shapely.Geometry, shapely.Geometry]:
+) -> tuple[shapely.Geometry, shapely.Geometry, shapely.Geometry]:
     """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
 
-    `share`, one of THIN, tells what is thin. The outline of what is named a room is its wall, where none is
-    drawn beside it, not even a `solid` one.
+    The third are outlines of things: such lines around a fill in which no place is named. `share`, one of
+    THIN, tells what is thin.
+    The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
     """
     usual = usual_pen(seen, sheet)
     thin = share * usual.width
     is_black = not is_colored(usual)
+    places = [(*text.position, *text.position) for text in sheet.texts if names_place(text)]
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
+    things: list[shapely.Geometry] = []
     rooms: list[shapely.Geometry] = []
     for mark in seen:
         pen = sheet.marks[mark.number].pen
@@ -53,10 +58,31 @@ def by_style(
             is_other = (is_black and is_colored(pen)) or 0.0 < pen.width < thin
             is_marginal = pen.dashed or (is_other and named.get(mark.number) is not Role.WALL)
             is_outline = is_room(sheet.marks[mark.number].names[-1:])
-            (rooms if is_marginal and is_outline else marginal if is_marginal else main).append(mark.line)
+            minor = (
+                rooms if is_outline else things if is_thing(sheet.marks[mark.number], places) else marginal
+            )
+            (minor if is_marginal else main).append(mark.line)
     (marginal if are_walled(rooms, [*main, solid], BESIDE * diagonal) else main).extend(rooms)
-    black, other = (parts_of(np.array(lines, dtype=object)) for lines in (main, marginal))
-    return shapely.multilinestrings(black), shapely.multilinestrings(other)
+    black, other, around = (
+        shapely.multilinestrings(parts_of(np.array(lines, dtype=object)))
+        for lines in (main, marginal, things)
+    )
+    return black, other, around
+
+
+def is_thing(mark: Mark, places: Sequence[Bounds]) -> bool:
+    """Tell whether a mark is painted, has a line all around it, and holds the name of none of the places."""
+    if mark.fill is None or not all(outline.closed for outline in mark.outlines):
+        return False
+    bounds = bounds_of(mark)
+    return not any(holds(bounds, place) for place in places)
+
+
+def names_place(text: Text) -> bool:
+    """Tell whether words name neither furniture nor a door, and are no length."""
+    role = guessed_role([text.text])
+    is_furniture = role is not None and role[0] is Role.FURNITURE
+    return role_of_words(text.text)[0] is Role.LABEL and not (is_furniture or is_measure(text.text))
 
 
 def are_walled(rooms: list[shapely.Geometry], walls: list[shapely.Geometry], reach: float) -> bool:

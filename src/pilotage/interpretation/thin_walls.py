@@ -4,7 +4,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls
+from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls, joint
 from pilotage.interpretation.paint import NOTHING, parts_of
 from pilotage.interpretation.partitions import TOUCHING, find_partitions
 from pilotage.interpretation.solids import enclosed, extent
@@ -19,6 +19,9 @@ GLAZED = (2.0, 0.85)
 LONG = 0.15
 """A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
 
+OUTER = 0.5
+"""More than this share of a window lies on the border of a building; a shelf stands inside."""
+
 EDGE = 0.0005
 """Lines that are nearer than this share of the drawing's diagonal are one."""
 
@@ -29,7 +32,8 @@ def black_lines(drawn: Drawn) -> Walls | None:
     What leads across a gap of a door's width within the building is a threshold, and parts nothing; on its
     border it is a window.
     """
-    if drawn.main.is_empty or drawn.marginal.is_empty:
+    marginal = joint(drawn.loose, drawn.things)
+    if drawn.main.is_empty or marginal.is_empty:
         return None
     gap = drawn.gap(WIDE_GAP)
     everything = enclosed(NOTHING, drawn.lines, gap)
@@ -38,7 +42,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
     edge = EDGE * drawn.diagonal
     main = shapely.union_all(drawn.main)
     body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
-    others = shapely.difference(shapely.union_all(drawn.marginal), body)
+    others = shapely.difference(shapely.union_all(marginal), body)
     width = drawn.door_width or USUAL_DOOR * drawn.diagonal
     near = shapely.buffer(body, TOUCHING * width)
     lines = [part for part in parts_of(shapely.line_merge(others)) if part.geom_type == "LineString"]
@@ -49,11 +53,16 @@ def black_lines(drawn: Drawn) -> Walls | None:
         enclosed(NOTHING, enclosing, wide * gap) >= share * everything for enclosing, wide, share in ways
     ):
         return None
-    parting = find_partitions(others, body, drawn.closing, width)
+    whole = shapely.difference(parts_of(drawn.parting(gap)), body)  # as drawn: what touches a line cuts none
+    parting = find_partitions(shapely.union_all(whole), body, drawn.closing, width)
     widest = max(WIDEST * width, gap)
     within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
     shapely.prepare(within)
-    outer = [part for part in bridges if not part.is_closed and not within.contains(part)]
+    outer = [
+        part
+        for part in bridges
+        if not part.is_closed and shapely.difference(part, within).length > OUTER * part.length
+    ]
     parting = shapely.union_all(
         [
             part
@@ -61,7 +70,6 @@ def black_lines(drawn: Drawn) -> Walls | None:
             if extent(part) > widest or not within.contains(part)
         ]
     )
-    whole = shapely.difference(parts_of(drawn.marginal), body)  # what touches a line cuts it only in `others`
     rest = without_islands(whole, body, within, edge)
     long = [part for part in parts_of(rest) if extent(part) >= LONG * drawn.diagonal]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)

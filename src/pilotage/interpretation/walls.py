@@ -55,7 +55,10 @@ def find_walls(
     )
     tried = chain(
         (way(drawn) for way in (named_walls, painted_walls, faced_walls, black_lines)),
-        (black_lines(replace(drawn, main=main, marginal=marginal)) for main, marginal in styles),
+        (
+            black_lines(replace(drawn, main=main, loose=loose, things=things))
+            for main, loose, things in styles
+        ),
     )
     return next((walls for walls in tried if walls is not None), Walls(solid, None, drawn.colors))
 
