@@ -71,8 +71,12 @@ def by_style(
 
 
 def is_thing(mark: Mark, places: Sequence[Bounds]) -> bool:
-    """Tell whether a mark is painted, has a line all around it, and holds the name of none of the places."""
-    if mark.fill is None or not all(outline.closed for outline in mark.outlines):
+    """Tell whether a mark is painted, has a line all around it, and holds the name of none of the places.
+
+    A dashed line goes around a part of a room, or a balcony.
+    """
+    is_around = mark.pen is not None and not mark.pen.dashed and all(line.closed for line in mark.outlines)
+    if mark.fill is None or not is_around:
         return False
     bounds = bounds_of(mark)
     return not any(holds(bounds, place) for place in places)

@@ -19,9 +19,6 @@ GLAZED = (2.0, 0.85)
 LONG = 0.15
 """A line in a color or dashed that is longer than this share of the drawing's diagonal is no furniture."""
 
-OUTER = 0.5
-"""More than this share of a window lies on the border of a building; a shelf stands inside."""
-
 EDGE = 0.0005
 """Lines that are nearer than this share of the drawing's diagonal are one."""
 
@@ -30,7 +27,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
     """Take black lines for walls, and of the others what parts rooms or is long; None if all are needed.
 
     What leads across a gap of a door's width within the building is a threshold, and parts nothing; on its
-    border it is a window.
+    border it is a window, if it lies there with most of its length: a shelf stands inside.
     """
     marginal = joint(drawn.loose, drawn.things)
     if drawn.main.is_empty or marginal.is_empty:
@@ -54,14 +51,18 @@ def black_lines(drawn: Drawn) -> Walls | None:
     ):
         return None
     whole = shapely.difference(parts_of(drawn.parting(gap)), body)  # as drawn: what touches a line cuts none
-    parting = find_partitions(shapely.union_all(whole), body, drawn.closing, width)
+    apart = shapely.union_all(whole)
+    parting = find_partitions(apart, body, drawn.closing, width)
     widest = max(WIDEST * width, gap)
     within = shapely.buffer(building(shapely.union_all([body, *bridges]), widest), -TOUCHING * width)
     shapely.prepare(within)
+    least = LONG * drawn.diagonal
     outer = [
         part
         for part in bridges
-        if not part.is_closed and shapely.difference(part, within).length > OUTER * part.length
+        if not (part.is_closed or within.contains(part))
+        if is_mostly(part, shapely.difference(part, within))
+        or (extent(part) >= least and is_mostly(part, shapely.intersection(part, apart)))
     ]
     parting = shapely.union_all(
         [
@@ -71,8 +72,13 @@ def black_lines(drawn: Drawn) -> Walls | None:
         ]
     )
     rest = without_islands(whole, body, within, edge)
-    long = [part for part in parts_of(rest) if extent(part) >= LONG * drawn.diagonal]
+    long = [part for part in parts_of(rest) if extent(part) >= least]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
+
+
+def is_mostly(line: shapely.Geometry, share: shapely.Geometry) -> bool:
+    """Tell whether a share of a line is most of it."""
+    return bool(share.length > line.length / 2.0)
 
 
 def without_islands(
