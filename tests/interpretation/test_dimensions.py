@@ -100,3 +100,10 @@ def test_a_number_may_be_written_in_outlines(signs):
     line = stroke((0, 20), (50, 20))
 
     assert (len(signs) == 2) is (Role.IGNORE is roles((*WITH_GAP, line, *signs, *digits), ())[len(WITH_GAP)])
+
+
+@pytest.mark.parametrize(("x", "role"), [(110, Role.IGNORE), (75, Role.WALL)], ids=["outside", "within"])
+def test_a_line_with_a_tick_across_both_ends_measures_a_building_if_it_lies_beside_it(x, role):
+    span = [stroke((x, 0), (x, 80)), *(stroke((x - 1, y), (x + 1, y)) for y in (0, 80))]
+
+    assert role is roles((*WITH_GAP, *span), ())[3]

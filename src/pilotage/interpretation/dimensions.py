@@ -1,8 +1,11 @@
-"""Find dimension lines: a number stands along them, and a sign at each of their ends."""
+"""Find dimension lines: a number stands along them, and a sign at each of their ends.
+
+Outside of a building two ticks are enough.
+"""
 
 import math
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -69,14 +72,42 @@ def find_dimensions(
     """
     texts = [text for text in sheet.texts if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)]
     texts += lettering
-    if not texts:
-        return set()
     outlines = [
         outline
         for mark in seen
         if mark.number not in named
         for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
+    found = spans_outside(outlines, diagonal) | (measuring(outlines, texts, diagonal) if texts else set())
+    counts = Counter(number for number, _ in found)
+    return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
+
+
+def spans_outside(outlines: Sequence[Outline], diagonal: float) -> set[tuple[int, int]]:
+    """List the lines with a tick across both ends that lie outside of all else, and the ticks."""
+    lines = [line for line in outlines if line.pen > 0.0 and len(line.vertices) == 2]
+    if not lines:
+        return set()
+    ends = np.array([line.vertices for line in lines])
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    tree = shapely.STRtree(shapely.points(ends.mean(axis=1)))
+    which, near = tree.query(shapely.points(ends.reshape(-1, 2)), predicate="dwithin", distance=AT * diagonal)
+    short = lengths[near] <= np.minimum(SHORT * lengths[which // 2], SIGN * diagonal)
+    ticks: defaultdict[int, dict[int, int]] = defaultdict(dict)
+    for end, tick in zip(which[short].tolist(), near[short].tolist(), strict=True):
+        ticks[end // 2][end % 2] = tick
+    spans = {line: [line, *signs.values()] for line, signs in ticks.items() if len(signs) == 2}
+    parts = {lines[place].key for span in spans.values() for place in span}
+    rest = np.concatenate([line.vertices for line in outlines if line.key not in parts] or [np.empty((0, 2))])
+    if not (spans and len(rest)):
+        return set()
+    low, high = rest.min(axis=0), rest.max(axis=0)
+    beyond = ((ends.max(axis=1) < low) | (ends.min(axis=1) > high)).any(axis=1)
+    return {lines[place].key for line, span in spans.items() if beyond[line] for place in span}
+
+
+def measuring(outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float) -> set[tuple[int, int]]:
+    """List the lines with a number beside them and a sign at each end, and these signs."""
     lines = measured_lines(outlines, texts, diagonal)
     if not lines:
         return set()
@@ -97,8 +128,7 @@ def find_dimensions(
             found |= {line.key, *(sign for _, sign in signs)}
         elif text.text and line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
             found.add(line.key)
-    counts = Counter(number for number, _ in found)
-    return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
+    return found
 
 
 def outlines_of(number: int, mark: Mark) -> Iterator[Outline]:
