@@ -52,3 +52,10 @@ def test_what_is_filled_within_thin_lines_are_rooms_where_they_cover_most_of_a_b
     rooms = [box(left, 0, left + 50, 80, pen=THIN, fill=CREAM) for left in (0, 50)]
 
     assert 2 == len(graph_of((OUTSIDE, *rooms)).cells)
+
+
+def test_a_thin_box_beside_a_building_is_a_legend_and_no_room():
+    legend = box(40, -25, 90, -8, pen=THIN)
+
+    assert Role.FURNITURE is roles((*WITH_GAP, legend))[-1]
+    assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, legend)).cells)

@@ -71,7 +71,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
             if extent(part) > widest or not within.contains(part)
         ]
     )
-    rest = without_islands(whole, body, within, edge)
+    rest = without_islands(whole, body, edge)
     long = [part for part in parts_of(rest) if extent(part) >= least]
     return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
 
@@ -81,10 +81,8 @@ def is_mostly(line: shapely.Geometry, share: shapely.Geometry) -> bool:
     return bool(share.length > line.length / 2.0)
 
 
-def without_islands(
-    lines: NDArray[np.object_], body: shapely.Geometry, within: shapely.Geometry, edge: float
-) -> NDArray[np.object_]:
-    """Leave out lines that stand free within a building and close on themselves: beds and tables."""
+def without_islands(lines: NDArray[np.object_], body: shapely.Geometry, edge: float) -> NDArray[np.object_]:
+    """Leave out lines that stand free of walls and close on themselves: beds and tables, legends and plots."""
     groups = parts_of(shapely.union_all(shapely.buffer(parts_of(lines), edge)))
-    free = [group for group in groups if within.contains(group) and not group.intersects(body)]
+    free = [group for group in groups if not group.intersects(body)]
     return np.asarray(shapely.difference(lines, shapely.union_all([one for one in free if one.interiors])))
