@@ -82,7 +82,7 @@ def is_mostly(line: shapely.Geometry, share: shapely.Geometry) -> bool:
 
 
 def without_islands(lines: NDArray[np.object_], body: shapely.Geometry, edge: float) -> NDArray[np.object_]:
-    """Leave out lines that stand free of walls and close on themselves: beds and tables, legends and plots."""
+    """Leave out lines that stand free of walls and close on themselves: beds, tables and legends."""
     groups = parts_of(shapely.union_all(shapely.buffer(parts_of(lines), edge)))
     free = [group for group in groups if not group.intersects(body)]
     return np.asarray(shapely.difference(lines, shapely.union_all([one for one in free if one.interiors])))
