@@ -59,3 +59,8 @@ def test_a_thin_box_beside_a_building_is_a_legend_and_no_room():
 
     assert Role.FURNITURE is roles((*WITH_GAP, legend))[-1]
     assert len(graph_of(WITH_GAP).cells) == len(graph_of((*WITH_GAP, legend)).cells)
+
+
+@pytest.mark.parametrize(("width", "role"), [(0.3, Role.FURNITURE), (1.0, Role.WALL)])
+def test_a_long_dashed_line_is_an_aisle_if_it_is_thin_too(width, role):
+    assert role is roles((*WITH_GAP, stroke((54, 20), (98, 20), width=width, dashed=True)))[-1]

@@ -40,8 +40,8 @@ def by_style(
 ) -> tuple[shapely.Geometry, shapely.Geometry, shapely.Geometry]:
     """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
 
-    The third are outlines of things: such lines around a fill in which no place is named. `share`, one of
-    THIN, tells what is thin.
+    The third are outlines of things: such lines around a fill in which no place is named, and lines that
+    are both dashed and thin. `share`, one of THIN, tells what is thin.
     The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
     """
     usual = usual_pen(seen, sheet)
@@ -55,12 +55,14 @@ def by_style(
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
-            is_other = (is_black and is_colored(pen)) or 0.0 < pen.width < thin
-            is_marginal = pen.dashed or (is_other and named.get(mark.number) is not Role.WALL)
+            is_thin = 0.0 < pen.width < thin
+            is_other = is_thin or (is_black and is_colored(pen))
+            is_named = named.get(mark.number) is Role.WALL
+            is_marginal = pen.dashed or (is_other and not is_named)
             is_outline = is_room(sheet.marks[mark.number].names[-1:])
-            minor = (
-                rooms if is_outline else things if is_thing(sheet.marks[mark.number], places) else marginal
-            )
+            is_aisle = pen.dashed and is_thin and not is_named
+            is_no_wall = is_aisle or is_thing(sheet.marks[mark.number], places)
+            minor = rooms if is_outline else things if is_no_wall else marginal
             (minor if is_marginal else main).append(mark.line)
     (marginal if are_walled(rooms, [*main, solid], BESIDE * diagonal) else main).extend(rooms)
     black, other, around = (
