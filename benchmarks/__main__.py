@@ -22,7 +22,6 @@ from pilotage.io.files import write_text
 
 NAMES = (
     "localization",
-    "staying",
     "calibration",
     "kidnap",
     "mismatch",
