@@ -8,8 +8,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from svgelements import Color
 
-from pilotage.io.svg.style import INITIAL, Style, is_named, leading_number, local_name
-from pilotage.io.svg.style_sheet import StyleSheet
+from pilotage.io.svg.style import INITIAL, Style, StyleSheet, is_named, leading_number, local_name
 
 REFERENCE = re.compile(r"\s*url\(\s*[\"']?#([^\"')]*)[\"']?\s*\)\s*(.*)")
 GRADIENTS = ("linearGradient", "radialGradient")
@@ -72,18 +71,21 @@ def color_of_server(
             return None
         children = [child for child in server if isinstance(child.tag, str)]
         if children:
-            outer = Style({**INITIAL, **variables}).of_child(sheet.declared(server))
+            chain = (server,)
+            outer = Style({**INITIAL, **variables}).of_child(sheet.declared(chain))
             return (
-                mean_of_stops(children, outer, sheet)
+                mean_of_stops(chain, children, outer, sheet)
                 if any(is_named(server, kind) for kind in GRADIENTS)
-                else ground_of(server, children, outer, sheet)
+                else ground_of(chain, children, outer, sheet)
             )
         href = next((value for key, value in server.attrib.items() if local_name(key) == "href"), "")
         server = by_id.get(href[1:])
     return None
 
 
-def mean_of_stops(stops: Sequence[Element], outer: Style, sheet: StyleSheet) -> str | None:
+def mean_of_stops(
+    chain: Sequence[Element], stops: Sequence[Element], outer: Style, sheet: StyleSheet
+) -> str | None:
     """Mix the stops of a gradient; None if it lets through what is below: it is a glint or a shadow.
 
     The light of a lamp lets most through: it is "none".
@@ -92,7 +94,7 @@ def mean_of_stops(stops: Sequence[Element], outer: Style, sheet: StyleSheet) -> 
     for stop in stops:
         if not is_named(stop, "stop"):
             continue
-        declared = sheet.declared(stop)
+        declared = sheet.declared((*chain, stop))
         shown = outer.of_child({**declared, "fill": declared.get("stop-color", "black")})
         color = Color(shown.paint("fill"))
         opacity = leading_number(declared.get("stop-opacity", "1"), 1.0) * float(color.opacity or 0.0)
@@ -105,22 +107,24 @@ def mean_of_stops(stops: Sequence[Element], outer: Style, sheet: StyleSheet) -> 
     return rgba(np.mean(colors, axis=0).tolist()) if is_solid else None
 
 
-def ground_of(pattern: Element, shapes: Sequence[Element], outer: Style, sheet: StyleSheet) -> str | None:
+def ground_of(
+    chain: Sequence[Element], shapes: Sequence[Element], outer: Style, sheet: StyleSheet
+) -> str | None:
     """Return the first fill of a pattern, upon which all else is drawn; else the color of its lines.
 
     Sparse lines let the paper through: then it is none.
     """
-    tile = leading_number(pattern.get("width", ""), 0.0) if is_in_user_units(pattern) else 0.0
+    tile = leading_number(chain[0].get("width", ""), 0.0) if is_in_user_units(chain[0]) else 0.0
     leaves: list[tuple[Style, bool]] = []
-    waiting = [(shape, outer) for shape in reversed(shapes)]
+    waiting = [((*chain, shape), outer) for shape in reversed(shapes)]
     while waiting and len(leaves) < MAX_SHAPES:
-        shape, above = waiting.pop()
-        style = above.of_child(sheet.declared(shape))
-        inner = [child for child in shape if isinstance(child.tag, str)]
+        place, above = waiting.pop()
+        style = above.of_child(sheet.declared(place))
+        inner = [child for child in place[-1] if isinstance(child.tag, str)]
         if inner:
-            waiting.extend((child, style) for child in reversed(inner))
+            waiting.extend(((*place, child), style) for child in reversed(inner))
         else:
-            leaves.append((style, has_area(shape)))
+            leaves.append((style, has_area(place[-1])))
     for name in ("fill", "stroke"):
         for style, is_area in leaves:
             is_shown = is_area and style.filled if name == "fill" else style.stroked

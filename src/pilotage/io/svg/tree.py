@@ -11,8 +11,7 @@ from svgelements import Matrix, Viewbox
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.servers import REFERENCE, PaintServers
-from pilotage.io.svg.style import Style, is_named, local_name, with_variables
-from pilotage.io.svg.style_sheet import StyleSheet
+from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name, with_variables
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
 WORDED = ("text", "foreignObject", "flowRoot")
@@ -100,7 +99,7 @@ class Document:
         check_size(root)
         self.page = read_page(root)
         self.start = Place((root,), self.page or UNKNOWN_PAGE, Matrix(), Style(), {})
-        self.sheet = StyleSheet(root)
+        self.sheet = StyleSheet.of(root)
         backwards = reversed(list(root.iter()))  # of two elements with one id the first counts
         self.by_id = {element.get("id"): element for element in backwards if element.get("id")}
         self.servers = PaintServers(self.by_id, self.sheet)
@@ -109,7 +108,7 @@ class Document:
     @property
     def declared_of_root(self) -> Mapping[str, str]:
         """What attributes and style say of the whole drawing, variables put in."""
-        declared = self.sheet.declared(self.start.chain[-1])
+        declared = self.sheet.declared(self.start.chain)
         return {name: with_variables(value, declared) for name, value in declared.items()}
 
     def walk(self) -> Iterator[Drawn]:
@@ -140,7 +139,7 @@ def walk(places: Sequence[Place], document: Document, effort: Effort) -> Iterato
         tag = local_name(element.tag) if isinstance(element.tag, str) else ""
         if tag not in DRAWN and tag not in HOLDING and tag != "use":
             continue
-        declared = sheet.declared(element)
+        declared = sheet.declared(place.chain)
         page_from_user = Matrix(declared.get("transform", "")) * place.page_from_user
         clip = REFERENCE.fullmatch(declared.get("clip-path", ""))
         here = place._replace(
@@ -227,7 +226,7 @@ def used(place: Place, by_id: Mapping[str | None, Element], sheet: StyleSheet) -
         yield there._replace(chain=(*there.chain, target))
         return
     chain = (*there.chain, target)
-    declared = {**sheet.declared(target), "display": "inline"}  # a symbol that is used is shown
+    declared = {**sheet.declared(chain), "display": "inline"}  # a symbol that is used is shown
     symbol = there._replace(
         chain=chain,
         style=there.style.of_child(declared),
