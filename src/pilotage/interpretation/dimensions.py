@@ -78,7 +78,9 @@ def find_dimensions(
         if mark.number not in named
         for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
-    found = spans_outside(outlines, diagonal) | (measuring(outlines, texts, diagonal) if texts else set())
+    found = spans_outside(outlines, diagonal) | (
+        spans_with_number(outlines, texts, diagonal) if texts else set()
+    )
     counts = Counter(number for number, _ in found)
     return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
 
@@ -106,7 +108,9 @@ def spans_outside(outlines: Sequence[Outline], diagonal: float) -> set[tuple[int
     return {lines[place].key for line, span in spans.items() if beyond[line] for place in span}
 
 
-def measuring(outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float) -> set[tuple[int, int]]:
+def spans_with_number(
+    outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float
+) -> set[tuple[int, int]]:
     """List the lines with a number beside them and a sign at each end, and these signs."""
     lines = measured_lines(outlines, texts, diagonal)
     if not lines:

@@ -18,17 +18,17 @@ from pilotage.interpretation.solids import enclosed
 GAP = 1.3
 """Openings up to this many door widths are closed to see what solids enclose."""
 
-WIDEST = 2.3
-"""Doors that are drawn shut are up to this many door widths wide: double and sliding doors."""
-
-USUAL_DOOR = 0.03
-"""Width of a door where none is drawn, as a share of the drawing's diagonal."""
-
 USUAL_GAP, WIDE_GAP = 0.04, 0.08
 """The same where no door is drawn, as shares of the drawing's diagonal: of painted walls, and of lines."""
 
 HALVED = 3
 """So many times these are halved at most."""
+
+WIDEST = 2.3
+"""Doors that are drawn shut are up to this many door widths wide: double and sliding doors."""
+
+USUAL_DOOR = 0.03
+"""Width of a door where none is drawn, as a share of the drawing's diagonal."""
 
 FURNISHED = 0.4
 """Things are furniture if they cover less than this share of what all lines enclose together, else rooms."""
@@ -58,7 +58,7 @@ class Drawn:
     colors: frozenset[Color]
     main: shapely.Geometry  # lines in black or gray, as they were drawn: they may cross and overlap
     loose: shapely.Geometry  # lines in a color, dashed and thin ones, likewise
-    things: shapely.Geometry  # such lines that are the outline of a fill
+    things: shapely.Geometry  # such lines around a fill without a name, and those both dashed and thin
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows, or painted as such
     named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
@@ -70,13 +70,13 @@ class Drawn:
     @cached_property
     def lines(self) -> shapely.Geometry:
         """All lines."""
-        return joint(self.main, self.loose, self.things)
+        return put_together(self.main, self.loose, self.things)
 
-    def parting(self, gap: float) -> shapely.Geometry:
-        """Lines in a color, dashed and thin ones that may part rooms: filled furniture does not."""
+    def may_part(self, gap: float) -> shapely.Geometry:
+        """Return the lines in a color, dashed and thin ones that may part rooms: furniture does not."""
         covered = enclosed(NOTHING, self.things, GRAIN * gap)
         is_furniture = covered < FURNISHED * enclosed(self.solid, self.lines, gap)
-        return self.loose if is_furniture else joint(self.loose, self.things)
+        return self.loose if is_furniture else put_together(self.loose, self.things)
 
     @cached_property
     def openings(self) -> shapely.Geometry:
@@ -120,11 +120,11 @@ class Drawn:
     def thin_beside(self, walls: shapely.Geometry, gap: float, thickness: float) -> shapely.Geometry:
         """Return the lines beside walls that part rooms, and the edges of floors that walls leave open."""
         edges = floor_edges(self.floors, walls, thickness, gap)
-        lines = joint(self.main, self.parting(gap), edges)
+        lines = put_together(self.main, self.may_part(gap), edges)
         parting = find_partitions(lines, walls, self.closing, self.door_width or gap)
         return shapely.union(parting, edges)
 
 
-def joint(*lines: shapely.Geometry) -> shapely.Geometry:
+def put_together(*lines: shapely.Geometry) -> shapely.Geometry:
     """Put lines together as they are."""
     return shapely.multilinestrings(np.concatenate([parts_of(some) for some in lines]))

@@ -41,8 +41,8 @@ def by_style(
     """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
 
     The third are outlines of things: such lines around a fill in which no place is named, and lines that
-    are both dashed and thin. `share`, one of THIN, tells what is thin.
-    The outline of what is named a room is its wall, where none is drawn beside it, not even a `solid` one.
+    are both dashed and thin. `share`, one of THIN, tells what is thin. The outline of what is named a room
+    is its wall, where none is drawn beside it, not even a `solid` one.
     """
     usual = usual_pen(seen, sheet)
     thin = share * usual.width
@@ -59,11 +59,14 @@ def by_style(
             is_other = is_thin or (is_black and is_colored(pen))
             is_named = named.get(mark.number) is Role.WALL
             is_marginal = pen.dashed or (is_other and not is_named)
-            is_outline = is_room(sheet.marks[mark.number].names[-1:])
-            is_aisle = pen.dashed and is_thin and not is_named
-            is_no_wall = is_aisle or is_thing(sheet.marks[mark.number], places)
-            minor = rooms if is_outline else things if is_no_wall else marginal
-            (minor if is_marginal else main).append(mark.line)
+            if not is_marginal:
+                main.append(mark.line)
+            elif is_room(sheet.marks[mark.number].names[-1:]):
+                rooms.append(mark.line)
+            elif (pen.dashed and is_thin and not is_named) or is_thing(sheet.marks[mark.number], places):
+                things.append(mark.line)
+            else:
+                marginal.append(mark.line)
     (marginal if are_walled(rooms, [*main, solid], BESIDE * diagonal) else main).extend(rooms)
     black, other, around = (
         shapely.multilinestrings(parts_of(np.array(lines, dtype=object)))

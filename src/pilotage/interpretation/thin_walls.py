@@ -4,7 +4,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls, joint
+from pilotage.interpretation.drawn import USUAL_DOOR, WIDE_GAP, WIDEST, Drawn, Walls, put_together
 from pilotage.interpretation.paint import NOTHING, parts_of
 from pilotage.interpretation.partitions import TOUCHING, find_partitions
 from pilotage.interpretation.solids import enclosed, extent
@@ -29,7 +29,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
     What leads across a gap of a door's width within the building is a threshold, and parts nothing; on its
     border it is a window, if it lies there with most of its length: a shelf stands inside.
     """
-    marginal = joint(drawn.loose, drawn.things)
+    marginal = put_together(drawn.loose, drawn.things)
     if drawn.main.is_empty or marginal.is_empty:
         return None
     gap = drawn.gap(WIDE_GAP)
@@ -50,7 +50,7 @@ def black_lines(drawn: Drawn) -> Walls | None:
         enclosed(NOTHING, enclosing, wide * gap) >= share * everything for enclosing, wide, share in ways
     ):
         return None
-    whole = shapely.difference(parts_of(drawn.parting(gap)), body)  # as drawn: what touches a line cuts none
+    whole = shapely.difference(parts_of(drawn.may_part(gap)), body)  # as drawn: what touches a line cuts none
     apart = shapely.union_all(whole)
     parting = find_partitions(apart, body, drawn.closing, width)
     widest = max(WIDEST * width, gap)

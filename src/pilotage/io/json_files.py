@@ -41,7 +41,7 @@ def read_json_objects(path: Path, kind: str) -> list[Json]:
 
 
 def text_in(path: Path, kind: str) -> str:
-    """Read a file in UTF-8."""
+    """Read a file in UTF-8; raises FileError if it cannot be."""
     check_regular(path)
     try:
         return read_bytes(path, LARGEST).decode("utf-8-sig")
@@ -50,7 +50,7 @@ def text_in(path: Path, kind: str) -> str:
 
 
 def decoded(text: str, path: Path, kind: str) -> object:
-    """Decode JSON."""
+    """Decode JSON; raises FileError if it is none, or nested too deeply."""
     try:
         found: object = json.loads(text)
     except (ValueError, RecursionError) as error:

@@ -20,21 +20,9 @@ from pilotage.io.json_files import LARGEST, Json, objects, read_json_objects, wo
 from pilotage.io.scales import length_in_metres
 
 NAMES = (
-    *(
-        "name",
-        "label",
-        "room_name",
-        "title",
-        "text",
-        "bezeichnung",
-        "raumname",
-        "raum",
-        "nom",
-        "nombre",
-        "nome",
-    ),
-    *("ref", "room_number", "room_no", "raumnummer", "number"),
-)
+    "name", "label", "room_name", "title", "text", "bezeichnung", "raumname", "raum", "nom", "nombre", "nome",
+    "ref", "room_number", "room_no", "raumnummer", "number",
+)  # fmt: skip
 """Where the name of a place is told, the likeliest first."""
 
 LEVELS = ("level", "floor", "storey", "etage")
