@@ -22,6 +22,7 @@ from pilotage.io.files import write_text
 
 NAMES = (
     "localization",
+    "staying",
     "calibration",
     "kidnap",
     "mismatch",

@@ -58,11 +58,13 @@ class Task:
     hand: str
     count: int
     drawing: str = ""  # building of the drawing; empty for the same
+    length: float = LENGTH  # [m] of an episode
 
     @property
     def file(self) -> str:
         """Name in the store."""
-        return f"{self.building}-on-{self.drawing or self.building}-{self.hand}-{self.count}.json"
+        drawing = f"{self.drawing or self.building}-{self.hand}"
+        return f"{self.building}-on-{drawing}-{self.count}-{self.length:.0f}m.json"
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ def follow_task(task: Task) -> Followed:
     travel, sketch = travel_of(task.building, task.hand), sketch_of(task.drawing or task.building, task.hand)
     truths = travel.truths if task.drawing in {"", task.building} else ("",) * len(travel.truths)
     traces = []
-    for seed, episode in enumerate(spread_episodes(travel.positions, task.count, LENGTH)):
+    for seed, episode in enumerate(spread_episodes(travel.positions, task.count, task.length)):
         chosen = slice(episode.first, episode.last + 1)
         localizer = Localizer(sketch.atlas, seed=seed)
         traces.append(

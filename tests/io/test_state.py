@@ -96,7 +96,7 @@ def spoil(saved, tmp_path, **changes):
 @pytest.mark.parametrize(
     ("changes", "rule"),
     [
-        ({"version": 1}, "must be of version 3, got 1"),
+        ({"version": 1}, "must be of version 4, got 1"),
         ({"state": None}, "no saved state"),
         ({"state": {"type": "Path", "fields": {}}}, "no saved state"),
         ({"blocked": 3}, "no saved state"),

@@ -10,10 +10,9 @@ import pytest
 from buildings import coarse, flat, readings_of, walk
 from pilotage.errors import PilotageError
 from pilotage.geometry import Pose2, Similarity2
-from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings, particle_filter
+from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, TrackSettings
 from pilotage.localization.global_search import global_search
 from pilotage.localization.keyframes import append_keyframe
-from pilotage.localization.localizer import SETTLED
 from pilotage.localization.observation import observe
 from pilotage.localization.particle_filter import Posterior, log_birth_factor
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
@@ -271,31 +270,35 @@ def test_a_birth_is_weighed_against_what_the_tracks_explained_after_the_first_se
     factors = [log_birth_factor(one, window, SMALL.tracks) for one in (before, first, second)]
 
     assert [0.0, 0.0, -0.5] == pytest.approx([factor - factors[0] for factor in factors])
-    assert factors[0] == log_birth_factor(second, window[1:], SMALL.tracks)
 
 
-def test_every_other_search_looks_back_half_as_far_while_a_settled_robot_may_have_been_carried(
-    atlas, monkeypatch
-):
-    looked_back, settled = [], []
+def test_where_a_scan_shows_that_the_robot_was_carried_the_window_begins_anew_and_births_are_likely():
+    readings = readings_of(PATH)
+    window = append_keyframe((), observe(readings[0][0], (), Pose2.identity()))
+    window = append_keyframe(window, observe(readings[1][0], (), Pose2(1.0, 0.0, 0.0)))
+    carried = append_keyframe(window, observe(readings[2][0], (), Pose2.identity(), was_carried=True))
+    before = replace(Posterior(Tracks((), 0.0)), searched=0.5)
+    factors = [log_birth_factor(before, one, SMALL.tracks) for one in (window, carried)]
 
-    def search(window, model, *given):
-        if model.atlas is atlas:
-            looked_back.append(window[-1].travel - window[0].travel)
-            settled.append(was_settled)
-        return global_search(window, model, *given)
+    assert [1.0] == [one.travel for one in carried]
+    assert 1.0 == carried[0].novelty
+    assert math.log(0.2 * 0.5 / 10.0) == pytest.approx(factors[1])
+    assert factors[0] < factors[1] - 5.0
 
-    monkeypatch.setattr(particle_filter, "global_search", search)
-    localizer, was_settled = Localizer(atlas, SMALL, seed=0), False
-    for reading in readings_of(PATH):
-        was_settled |= localizer.update(*reading).probability >= SETTLED
-    lost = [length for length, known in zip(looked_back, settled, strict=True) if not known]
-    found = [length for length, known in zip(looked_back, settled, strict=True) if known][-6:]
 
-    short, long = sorted((max(found[0::2]), max(found[1::2])))
+def test_a_robot_that_is_carried_doubts_at_once_and_finds_itself_again(atlas):
+    before, after = readings_of(PATH[:4]), readings_of(PATH[12:])
+    here = before[-1][1].odom_from_base @ after[0][1].odom_from_base.inverse()
+    later = [
+        (scan, replace(odometry, odom_from_base=here @ odometry.odom_from_base)) for scan, odometry in after
+    ]
+    localizer = Localizer(atlas, SMALL, start=in_file(PATH[0]), scale=12.0)
+    known = run(localizer, before)[-1]
+    estimates = run(localizer, later)
 
-    assert 5.0 < max(lost) <= 10.0
-    assert 3.0 < short <= 5.0 < long <= 10.0
+    assert 0.9 < known.probability
+    assert estimates[0].probability < 0.8
+    assert errors(estimates, PATH[12:])[-1] < 1.0
 
 
 @pytest.mark.parametrize(

@@ -49,6 +49,23 @@ def test_a_walk_is_followed():
     assert scan_matcher.odom_from_base == motions_found[-1].odom_from_base
     assert scan_matcher.refused_count == 0
     assert all(motion.inlier_share > 0.4 for motion in motions_found[1:])
+    assert not any(motion.was_carried for motion in motions_found)
+
+
+def test_a_scan_of_another_place_tells_that_the_robot_was_carried_and_it_is_followed_from_there():
+    poses = walk()
+    before, after = readings_of(poses[:4]), readings_of(poses[12:20])
+    here = before[-1][1].odom_from_base @ after[0][1].odom_from_base.inverse()
+    later = [
+        (scan, replace(odometry, odom_from_base=here @ odometry.odom_from_base)) for scan, odometry in after
+    ]
+    _, motions_found = follow([*before, *later])
+    there, last = motions_found[4], motions_found[-1]
+
+    assert [4] == [index for index, motion in enumerate(motions_found) if motion.was_carried]
+    assert distance(there.last_from_base, Pose2.identity()) < 1e-9  # as odometry says
+    driven = poses[12].inverse() @ poses[19]
+    assert distance(there.odom_from_base.inverse() @ last.odom_from_base, driven) < 0.1
 
 
 def test_the_first_reading_does_not_move():

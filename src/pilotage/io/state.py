@@ -43,7 +43,7 @@ from pilotage.shape import PartialShape
 from pilotage.shape.corners import Corners
 from pilotage.shape.partial import EndCause
 
-VERSION = 3
+VERSION = 4
 """Of the format; a state of another version is refused."""
 
 LARGEST = 1 << 27

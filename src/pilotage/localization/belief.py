@@ -1,6 +1,5 @@
 """All that a localizer believes, as one value: an update makes a new one or, if it fails, leaves the old."""
 
-import math
 from dataclasses import dataclass, field, replace
 
 from pilotage.geometry import Pose2
@@ -24,7 +23,6 @@ class Belief:
     window: tuple[Keyframe, ...] = ()
     fits: tuple[float, ...] = ()  # at the last keyframes
     at_keyframe: Estimate | None = None  # the estimate at the newest keyframe; None before the first scan
-    settled: float = -math.inf  # [m] of travel when the place was settled last
     motion: Pose2 = field(default_factory=Pose2.identity)  # since the newest keyframe [m, rad]
     estimate: Estimate | None = None  # the same, carried along by this motion
 

@@ -30,24 +30,25 @@ class Keyframe:
     odom_from_base: Pose2
     travel: float  # [m]
     novelty: float = 1.0  # [0..1] share of the scan that no keyframe of the window showed: its weight
+    was_carried: bool = False  # to here, from wherever the keyframe before was taken
     blocked: tuple[BlockedWay, ...] = ()  # ways found blocked since, in the frame of the robot
 
 
 def append_keyframe(window: tuple[Keyframe, ...], seen: Observation) -> tuple[Keyframe, ...]:
-    """Add a keyframe after its motion, and drop those before the window."""
+    """Add a keyframe after its motion, and drop those before the window.
+
+    What was seen before the robot was carried tells nothing of where it is now.
+    """
     if not window:
         return (Keyframe(seen.scan, seen.corners, Pose2.identity(), 0.0),)
     last = window[-1]
     travel = last.travel + math.hypot(seen.motion.x, seen.motion.y)
+    if seen.was_carried:
+        return (Keyframe(seen.scan, seen.corners, Pose2.identity(), travel, was_carried=True),)
     kept = tuple(one for one in window if travel - one.travel <= WINDOW)
     odom_from_base = last.odom_from_base @ seen.motion
     novelty = novelty_at(odom_from_base, seen.view, kept)
     return (*kept, Keyframe(seen.scan, seen.corners, odom_from_base, travel, novelty))
-
-
-def newest(window: tuple[Keyframe, ...], length: float) -> tuple[Keyframe, ...]:
-    """Return the keyframes of the last `length` [m] of travel."""
-    return tuple(one for one in window if window[-1].travel - one.travel <= length)
 
 
 def novelty_at(odom_from_base: Pose2, view: float, window: tuple[Keyframe, ...]) -> float:

@@ -13,7 +13,6 @@ from pilotage.localization.estimate import Estimate, summarize
 from pilotage.localization.explanation import Explanation, explain
 from pilotage.localization.global_search import SCANS
 from pilotage.localization.keyframes import (
-    WINDOW,
     Keyframe,
     append_blocked_way,
     append_keyframe,
@@ -41,9 +40,6 @@ SETTLED_EVERY = 2.0
 """[m] of travel between two searches while the place is settled."""
 SETTLED_PROPOSALS = 0.25
 """Share of the proposals that a search tries while the place is settled."""
-CARRIED = 0.5 * WINDOW
-"""[m] that every other search looks back if the robot may have been carried during the window. What was seen
-before that speaks against every place where it may be now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,8 +187,9 @@ class Localizer:
         """Take one scan in, give one estimate out."""
         seen = self.scan_matcher.update(scan, odometry)  # 2.1, 2.2, 3.3: the robot's side, knows no drawing
         motion = self._belief.motion @ seen.last_from_base
-        if self._belief.at_keyframe is None or self.settings.is_keyframe_due(motion):
-            keyframe = observe(scan, seen.shapes, motion)
+        is_due = seen.was_carried or self.settings.is_keyframe_due(motion)
+        if self._belief.at_keyframe is None or is_due:
+            keyframe = observe(scan, seen.shapes, motion, was_carried=seen.was_carried)
             return self.add_keyframe(self.other_buildings.compared(keyframe))
         self._belief = self._belief.moved(motion, scan.stamp, self.atlas)
         return self.estimate
@@ -204,10 +201,8 @@ class Localizer:
         """
         belief = self._belief
         window = append_keyframe(belief.window, seen)
-        effort, back = search_effort(belief, window), search_length(belief, window)
-        posterior = self._filter.updated(
-            belief.posterior, window, seen.motion, self._rng, effort=effort, back=back
-        )
+        effort = search_effort(belief, window)
+        posterior = self._filter.updated(belief.posterior, window, seen.motion, self._rng, effort=effort)
         fits = (*belief.fits, *self._fits(posterior.tracks, seen.scan))[-FIT_MEMORY:]
         fit = sum(fits) / len(fits) if posterior.tracks.tracks else 0.0
         belief = replace(
@@ -243,8 +238,7 @@ class Localizer:
         """Estimate the place at the newest keyframe."""
         tracks, is_mismatch = belief.posterior.tracks, belief.is_mismatch
         estimate = summarize(tracks, fit, stamp, belief.log_evidence, self.atlas, is_mismatch=is_mismatch)
-        settled = belief.window[-1].travel if estimate.probability >= SETTLED else belief.settled
-        return replace(belief, at_keyframe=estimate, estimate=estimate, settled=settled)
+        return replace(belief, at_keyframe=estimate, estimate=estimate)
 
     def _fits(self, tracks: Tracks, scan: SparseScan) -> tuple[float, ...]:
         """Measure the fit of a scan at the leading track, if there is one."""
@@ -266,14 +260,3 @@ def search_effort(belief: Belief, window: tuple[Keyframe, ...]) -> float:
         return 1.0
     is_due = window[-1].travel - belief.posterior.searched >= SETTLED_EVERY
     return SETTLED_PROPOSALS if is_due else 0.0
-
-
-def search_length(belief: Belief, window: tuple[Keyframe, ...]) -> float:
-    """Return how far a search looks back at the newest keyframe [m].
-
-    A robot whose place was settled within the window may have been carried from there: then only the newest
-    metres show where it is. Or it is lost on a poor drawing, and needs all of the window. So the two lengths
-    take turns (decision 0037).
-    """
-    may_be_carried = belief.settled >= window[0].travel
-    return CARRIED if may_be_carried and belief.posterior.searches % 2 else WINDOW

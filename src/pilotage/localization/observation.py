@@ -21,10 +21,13 @@ class Observation:
     motion: Pose2  # since the last keyframe
     stamp: float  # [s]
     view: float  # [rad] that the scan covers, at most a full turn
+    was_carried: bool  # since the last keyframe: this scan shows another place
     log_elsewhere: float = 0.0  # [nats] log-likelihood ratio of being in another building than the drawn one
 
 
-def observe(scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2) -> Observation:
+def observe(
+    scan: LaserScan, shapes: tuple[PartialShape, ...], motion: Pose2, *, was_carried: bool = False
+) -> Observation:
     """Take what is compared with a drawing from a scan and its perceived shapes, in the robot's frame."""
     corners = find_corners(simplify_all([shape.polyline for shape in shapes], CORNERS, compiled=True))
-    return Observation(thin_scan(scan), corners, motion, scan.stamp, scan.view)
+    return Observation(thin_scan(scan), corners, motion, scan.stamp, scan.view, was_carried)

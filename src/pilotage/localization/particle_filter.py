@@ -9,7 +9,7 @@ import numpy as np
 from pilotage.geometry import Pose2
 from pilotage.localization.blocked_way import log_ratio_of_ways
 from pilotage.localization.global_search import global_search
-from pilotage.localization.keyframes import WINDOW, Keyframe, newest
+from pilotage.localization.keyframes import WINDOW, Keyframe
 from pilotage.localization.motion_model import propagate
 from pilotage.localization.particles import Particles, join
 from pilotage.localization.prior import Prior, draw_anywhere, draw_near
@@ -25,8 +25,10 @@ from pilotage.localization.tracks import (
     rare,
 )
 
-MIN_CARRIED = 0.05
-"""[m] of travel since a search that counts at least: a robot that only turns may have been carried, too."""
+CARRIED = 0.2
+"""Probability that the robot was carried where a scan shows another place than those before."""
+MIN_TRAVEL = 0.05
+"""[m] of travel since a search that counts at least: a robot that only turns may be elsewhere, too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +40,6 @@ class Posterior:
     log_evidence: float = 0.0  # of all tracks over that of any ranges, since the first scan [nats]
     log_totals: tuple[tuple[float, float], ...] = ()  # travel [m] and log-evidence of keyframes of the window
     searched: float = 0.0  # [m] of travel at the last search
-    searches: int = 0  # how many there were
 
     @property
     def log_evidence_of_places(self) -> float:
@@ -91,28 +92,26 @@ class ParticleFilter:
         rng: np.random.Generator,
         *,
         effort: float,
-        back: float = WINDOW,
     ) -> Posterior:
         """Move and weigh all tracks by the newest keyframe, after this motion, and let new ones be born.
 
-        `effort` is the share of the proposals that a search tries, 0 for no search. `back` is how far
-        it looks back [m].
+        `effort` is the share of the proposals that a search tries, 0 for no search.
         """
         keyframe = window[-1]
         particles, log_null = before.tracks.particles, before.tracks.log_null
         if before.log_totals:
             particles = propagate(particles, motion, self.model.atlas, self.prior, rng)
             leaving = self.settings.leaving * math.hypot(motion.x, motion.y) * math.exp(before.log_told)
-            particles, log_null = leave(particles, log_null, leaving)
+            particles, log_null = leave(particles, log_null, CARRIED if keyframe.was_carried else leaving)
         log_ratio = keyframe.novelty * self.model.log_ratio(particles.states, keyframe.scan)
         particles, log_null, log_total = normalized(particles.scaled(log_ratio), log_null)
-        after = before.with_evidence(window, log_total)
+        since = replace(before, log_totals=()) if keyframe.was_carried else before
+        after = since.with_evidence(window, log_total)
         if effort > 0.0:
             count = round(effort * self.proposals)
-            part = newest(window, back)
-            found = global_search(part, self.model, self.prior, count, rng).resampled(self.births, rng)
-            particles = join([particles, found.scaled(log_birth_factor(after, part, self.settings))])
-            after = replace(after, searched=keyframe.travel, searches=before.searches + 1)
+            found = global_search(window, self.model, self.prior, count, rng).resampled(self.births, rng)
+            particles = join([particles, found.scaled(log_birth_factor(after, window, self.settings))])
+            after = replace(after, searched=keyframe.travel)
         return replace(after, tracks=self.gathered(particles, log_null, rng))
 
     def with_blocked_way(
@@ -133,16 +132,18 @@ class ParticleFilter:
         return as_one(particles, log_null, self.settings.max_count, rng)
 
 
-def log_birth_factor(posterior: Posterior, part: tuple[Keyframe, ...], settings: TrackSettings) -> float:
-    """Return what the log-mass of a birth adds to the log-evidence there of a searched part [nats].
+def log_birth_factor(posterior: Posterior, window: tuple[Keyframe, ...], settings: TrackSettings) -> float:
+    """Return what the log-mass of a birth adds to the log-evidence there of a searched window [nats].
 
-    A birth says that the robot was carried there, or was on no drawn place, when this part of the window
-    began. By Bayes' rule its mass is the prior of that, times the evidence of the part there, over the
-    evidence that all tracks together had since. That of the first keyframe is left out: a search weighs a
-    part by a few of its keyframes, so births are weak already, and with it fewer runs ended right (decision
-    0023).
+    A birth says that the robot was carried there, or was on no drawn place, when the window began. By
+    Bayes' rule its mass is the prior of that, times the evidence of the window there, over the evidence that
+    all tracks together had since. That of the first keyframe is left out: a search weighs a window by a few
+    of its keyframes, so births are weak already, and with it fewer runs ended right (decision 0023). The
+    prior is shared among the searches.
     """
-    distance = max(part[-1].travel - posterior.searched, MIN_CARRIED)
-    log_prior = math.log(rare(settings.moving * distance)) + posterior.log_told
-    log_totals = [log_total for travel, log_total in posterior.log_totals if travel >= part[0].travel]
-    return log_prior - sum(log_totals[1:])
+    distance = max(window[-1].travel - posterior.searched, MIN_TRAVEL)
+    if window[0].was_carried:
+        log_prior = math.log(CARRIED * distance / WINDOW)
+    else:
+        log_prior = math.log(rare(settings.moving * distance)) + posterior.log_told
+    return log_prior - sum(log_total for _, log_total in posterior.log_totals[1:])

@@ -51,7 +51,7 @@ class TrackSettings:
     count_per_area: int = 1_000  # particles for each square metre over which a track is spread
     first_null: float = 0.2  # probability, before the first scan, that the robot is nowhere on the drawing
     leaving: float = 0.0005  # probability per metre that the robot leaves what is drawn
-    moving: float = 0.0005  # probability per metre that the robot was carried to another place
+    moving: float = 0.00001  # probability per metre that the robot was carried, and no scan showed it
     told_log_odds: float = 12.0  # [nats] by which both are less likely if the user tells the start
 
     def __post_init__(self) -> None:

@@ -34,8 +34,9 @@ def observations_of(
         seen = matcher.update(reading.scan, reading.odometry)
         gone += math.hypot(seen.last_from_base.x, seen.last_from_base.y)
         motion = motion @ seen.last_from_base
-        if not observations or settings.is_keyframe_due(motion):
-            observations.append(other_buildings.compared(observe(reading.scan, seen.shapes, motion)))
+        if not observations or seen.was_carried or settings.is_keyframe_due(motion):
+            keyframe = observe(reading.scan, seen.shapes, motion, was_carried=seen.was_carried)
+            observations.append(other_buildings.compared(keyframe))
             motion = Pose2.identity()
         if gone >= travel:
             break

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from pilotage.geometry import Pose2
 from pilotage.perception import LaserScan, Odometry, PerceptionSettings, perceive
 from pilotage.scan_matching.local_map import LocalMap
@@ -12,6 +14,12 @@ from pilotage.shape import PartialShape
 
 LONGEST_INERTIA = 1.0
 """[s] A robot without odometry is expected to keep its speed for no longer."""
+
+ELSEWHERE = 0.3
+"""A scan shows another place than those before if it has less than this share of their inliers."""
+
+REMEMBERED = 20
+"""So many scans tell how many inliers are usual."""
 
 MIN_LEARNING_INLIERS = 0.25
 """With a smaller share of inliers, registration cannot judge odometry."""
@@ -48,6 +56,7 @@ class ScanMotion:
     odom_from_base: Pose2
     shapes: tuple[PartialShape, ...]  # what the scan shows, in the base frame
     inlier_share: float  # [0..1] share of the length of all shapes that lies on the local map
+    was_carried: bool  # hardly any of it does, though there is something to compare
     odometry_refused: bool  # it reported a motion that no robot makes, and was not used
 
 
@@ -66,6 +75,7 @@ class ScanMatcher:
         self._odometry: Odometry | None = None  # the last reading; None before the first
         self._traveled = 0.0  # [m]
         self._speed = (0.0, 0.0, 0.0)  # [m/s, m/s, rad/s] at the last reading, in the base frame
+        self._inlier_shares: tuple[float, ...] = ()  # of the last scans that showed a place known
         self._odom_from_keyframe = Pose2.identity()  # where the last scan was entered
 
     def update(self, scan: LaserScan, odometry: Odometry) -> ScanMotion:
@@ -74,28 +84,44 @@ class ScanMatcher:
         shapes = perceive(scan, settings.perception)  # sections 2.1, 2.2
         prior = self._motion_prior(odometry)
         registration = register(shapes, self.local_map, prior, settings.method)  # 3.3, steps 1 and 3
-        odom_from_base = registration.odom_from_base
-        last_from_base = self.odom_from_base.inverse() @ odom_from_base if registration.fit else prior.motion
+        was_carried = registration.fit is not None and self._is_elsewhere(registration)
+        odom_from_base, last_from_base = prior.odom_from_base, prior.motion
+        inlier_shares = self._inlier_shares
+        if registration.fit is not None and not was_carried:
+            odom_from_base = registration.odom_from_base
+            last_from_base = self.odom_from_base.inverse() @ odom_from_base
+            inlier_shares = (*inlier_shares, registration.inlier_share)[-REMEMBERED:]
         traveled = self._traveled + math.hypot(last_from_base.x, last_from_base.y)
         noise = self._updated_noise(prior, registration) if odometry.is_known else self.noise
         local_map, odom_from_keyframe = self.local_map, self._odom_from_keyframe
-        if self._is_keyframe(odom_from_base):
+        if was_carried or self._is_keyframe(odom_from_base):
             unmatched = find_unmatched(shapes, local_map, odom_from_base)  # 3.3, step 2, at that pose
             new = tuple(shapes[index].moved(odom_from_base) for index in unmatched)
             local_map = local_map.extended(new, traveled, settings.window)  # 3.3, step 4
             odom_from_keyframe = odom_from_base
 
         self.local_map, self.odom_from_base, self.noise = local_map, odom_from_base, noise
+        self._inlier_shares = inlier_shares
         self._speed = self._speed_of(last_from_base, odometry.stamp)
         self._odometry, self._traveled, self._odom_from_keyframe = odometry, traveled, odom_from_keyframe
         self.refused_count += not prior.is_known
         return ScanMotion(
-            last_from_base, odom_from_base, shapes, registration.inlier_share, not prior.is_known
+            last_from_base,
+            odom_from_base,
+            shapes,
+            registration.inlier_share,
+            was_carried,
+            not prior.is_known,
         )
 
     def stood_still(self) -> None:
         """Take the next reading of odometry as being at the pose of now: its frame may have begun anew."""
         self._odometry, self._speed = None, (0.0, 0.0, 0.0)
+
+    def _is_elsewhere(self, registration: Registration) -> bool:
+        """Tell whether a scan shows another place: far fewer inliers than usual."""
+        usual = float(np.median(self._inlier_shares)) if self._inlier_shares else 0.0
+        return registration.inlier_share < ELSEWHERE * usual
 
     def _motion_prior(self, odometry: Odometry) -> MotionPrior:
         """Carry the last pose on by what odometry reports."""
