@@ -43,16 +43,18 @@ def right_at_end(building, hand, count, length, apart):
 
 @needs_logs
 @pytest.mark.slow
-@pytest.mark.parametrize("building", ["freiburg-079", "fhw"])
-def test_a_robot_finds_its_room_on_a_quick_drawing(building):
-    assert right_at_end(building, "quick", count=4, length=30.0, apart=3) >= 3
+def test_a_robot_finds_its_room_on_quick_drawings():
+    buildings = ("freiburg-079", "fhw")
+
+    assert 6 <= sum(right_at_end(one, "quick", count=4, length=30.0, apart=3) for one in buildings)
 
 
 @needs_logs
 @pytest.mark.slow
-@pytest.mark.parametrize("building", ["belgioioso", "csail"])
-def test_a_robot_finds_its_room_on_a_careful_drawing(building):
-    assert right_at_end(building, "draftsman", count=3, length=40.0, apart=2) >= 2
+def test_a_robot_finds_its_room_on_careful_drawings():
+    buildings = ("belgioioso", "csail")
+
+    assert 4 <= sum(right_at_end(one, "draftsman", count=3, length=40.0, apart=2) for one in buildings)
 
 
 @pytest.fixture(scope="module")

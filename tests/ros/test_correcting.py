@@ -140,7 +140,7 @@ def test_a_corrected_map_is_published_and_scans_lie_on_it():
     session = Session(atlas, (chosen.localizer, chosen.navigator), keeps_sightings=True)
     said = []
     live = LiveRobot(Node(191), session, Topics(drives=True), said.append, lambda: simulator.stamp)
-    live.set_goal("kitchen")
+    live.set_goal("Ana")
     beside = Correcting(session, said.append, clock=lambda: simulator.stamp)
     listener = Node(191)
     maps = listener.subscribe("map", "nav_msgs/msg/OccupancyGrid", Quality(10, reliable=True, latched=True))
