@@ -93,9 +93,7 @@ def test_a_file_of_a_robot_gives_options_their_values(pilotage, tmp_path, conten
     assert refusal[1] in " ".join(outcome.err.replace("│", " ").split())
 
 
-@pytest.mark.parametrize(
-    "words", [("--settings", "mine.toml"), ("--robot", "robot.toml"), ("--radius", "0.3"), ("--stamped",)]
-)
+@pytest.mark.parametrize("words", [("--robot", "robot.toml"), ("--radius", "0.3"), ("--stamped",)])
 def test_a_table_without_a_robot_refuses_what_would_change_nothing(pilotage, tmp_path, words):
     (tmp_path / "robot.toml").write_text("speed = 0.4\n")
     words = [tmp_path / word if word.endswith(".toml") else word for word in words]

@@ -16,7 +16,7 @@ from pilotage.web.app import build_app
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
 from pilotage.web.table import Table
-from web_table import TOKEN
+from web_table import FEW, FEW_AS_TOML, TOKEN
 
 
 @pytest.fixture
@@ -30,8 +30,8 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def table(folder: Path) -> Table:
-    """What the routes share."""
-    return Table(Folder(folder))
+    """What the routes share; its robots keep few particles."""
+    return Table(Folder(folder), settings=FEW)
 
 
 @pytest.fixture
@@ -64,7 +64,9 @@ def address(drawings: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterato
     """Address that the command prints, with its token."""
     said = tmp_path_factory.mktemp("said") / "stderr.txt"
     pilotage = Path(sys.executable).with_name("pilotage")
-    command = [pilotage, "table", drawings, "--no-browser", "--port", "0"]
+    settings = said.with_name("few.toml")
+    settings.write_text(FEW_AS_TOML)
+    command = [pilotage, "table", drawings, "--no-browser", "--port", "0", "--settings", settings]
     with said.open("w") as stderr, subprocess.Popen(command, stderr=stderr) as server:  # noqa: S603  # our own
         try:
             while not said.read_text().endswith("\n"):

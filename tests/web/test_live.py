@@ -10,6 +10,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from starlette.testclient import TestClient
 
+from pilotage.config import settings_from
 from pilotage.drives import drive, set_out
 from pilotage.io import open_map
 from pilotage.io.journal import journal_file
@@ -95,6 +96,16 @@ def test_a_drawing_is_not_corrected_by_a_robot_that_does_not_know(client: TestCl
 
     assert 504 == refused.status_code
     assert "must be sure" in refused.json()["error"]
+
+
+def test_a_robot_has_the_settings_of_the_command_line(table: Table, client: TestClient) -> None:
+    table.settings = settings_from({"navigator": {"time_limit": 0.5}})
+    with talking(client) as talk:
+        talk.start()
+        done = talk.hear("done")
+
+    assert "gave up" == done["outcome"]
+    assert "within 0 s" in done["reason"]
 
 
 def test_a_person_may_play_fate(client: TestClient) -> None:

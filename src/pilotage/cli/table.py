@@ -39,7 +39,6 @@ NEEDED = ("starlette", "uvicorn", "websockets")
 OF_THE_ROBOT = {
     "drive": "--drive",
     "robot_file": "--robot",
-    "settings": "--settings",
     **{argument: f"--{name}" for name, (argument, _) in PARAMETERS.items()},
 }
 """Options that mean nothing without a robot on the network, by their arguments."""
@@ -99,6 +98,7 @@ def table(
     - Watch a real robot: `pilotage table drawings --ros2 --domain 7`
     - Drive it by a button of the page:
       `pilotage table --ros2 --drive --radius 0.2 --speed 0.4 --turn-rate 1 --braking 0.5`
+    - With settings of your own, for all robots: `pilotage table drawings --settings mine.toml`
     - For others in the network: `pilotage table drawings --host 0.0.0.0 --token "$(openssl rand -hex 16)"`
     """
     missing = [name for name in NEEDED if find_spec(name) is None]
@@ -113,12 +113,16 @@ def table(
     check_names(namespace, scan_topic, odometry_topic, command_topic)
     from pilotage.web.serve import Address, serve
 
-    robot = None
+    chosen = robot = None
+    if settings is not None:
+        from pilotage.config import read_settings
+
+        chosen = read_settings(settings)
     if ros2:
         topics = Topics(scan_topic, odometry_topic, command_topic, stamped=stamped, drives=drive)
         link = Link(domain, namespace, transport)
         robot = robot_order(link, topics, settings, limits, length)
-    serve(folder, Address(host, port, token), browse=browser, say=say, robot=robot)
+    serve(folder, Address(host, port, token), browse=browser, say=say, robot=robot, settings=chosen)
 
 
 def check_unused(context: typer.Context) -> None:

@@ -153,8 +153,14 @@ async def understand(request: Request) -> Response:
     sent = Sent(suffix, await body_of(request, LARGEST_DRAWING), hints_of(request))
     told = [place_in_query(request, name) for name in ("from", "to")]
     ends = None if told[0] is None or told[1] is None else (told[0], told[1])
-    job = table_of(request).jobs.run(
-        work.understand, sent, ends, within=UNDERSTAND_WITHIN, name="understanding this drawing"
+    table = table_of(request)
+    job = table.jobs.run(
+        work.understand,
+        sent,
+        ends,
+        table.settings,
+        within=UNDERSTAND_WITHIN,
+        name="understanding this drawing",
     )
     return JSONResponse(await while_wanted(request, job))
 

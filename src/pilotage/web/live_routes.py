@@ -151,6 +151,7 @@ def read_order(message: Message, table: Table) -> Order:
         seed=orders.whole(message, "seed"),
         speed=orders.number(message, "speed", *orders.SPEEDS, otherwise=1.0),
         paused=orders.switch(message, "paused", otherwise=False),
+        settings=table.settings,
     )
 
 

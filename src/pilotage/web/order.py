@@ -75,6 +75,9 @@ class Order:
     seed: int = 0
     speed: float = 1.0
     paused: bool = False
+    settings: "Settings | None" = (
+        None  # for all but a robot on the network, which has its own; None: defaults
+    )
 
 
 def number(

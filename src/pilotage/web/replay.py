@@ -120,9 +120,10 @@ class Replay:
         """Nothing true is known."""
 
 
-def replay(atlas: Atlas, page: Page, log: Path, start: tuple[float, ...] | None, seed: int) -> Replay:
+def replay(
+    atlas: Atlas, page: Page, log: Path, start: tuple[float, ...] | None, *, seed: int, settings: Settings
+) -> Replay:
     """Prepare to localize by a log; FileError if it cannot be read."""
-    settings = Settings()
     source = LogSource(log)
     localizer = Localizer(atlas, settings.localizer, seed=seed, start=start)  # type: ignore[arg-type]
     return Replay(Navigator(localizer, any_goal(atlas), settings.navigator), source, page)

@@ -7,11 +7,15 @@ import webbrowser
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pilotage.errors import FileError, PilotageError
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
 from pilotage.web.order import RobotOrder
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
 
 LOCAL = "127.0.0.1"
 """The address that only this machine can reach, ..."""
@@ -47,6 +51,7 @@ def serve(
     browse: bool,
     say: Callable[[str], None],
     robot: RobotOrder | None = None,
+    settings: "Settings | None" = None,
 ) -> None:
     """Serve a folder until the process is interrupted; `say` is told the address to open.
 
@@ -72,7 +77,7 @@ def serve(
     port = listening.getsockname()[1]
     token = wanted.token or secrets.token_urlsafe(24)
     hosts = frozenset(f"{name}:{port}" for name in (wanted.host, LOCAL, LOCAL_NAME))
-    app = build_app(Table(Folder(folder), robot), Access(token, hosts, any_host=not is_local))
+    app = build_app(Table(Folder(folder), robot, settings), Access(token, hosts, any_host=not is_local))
     server = uvicorn.Server(
         uvicorn.Config(
             app,

@@ -136,12 +136,12 @@ def set_stage(order: Order) -> Show:
     """Read drawing and world, and put the robot down; PilotageError or ValueError if that cannot be done."""
     if isinstance(order.world, RobotOrder):
         raise NoWorldError("a robot on the network has no world")
-    settings = Settings()
+    settings = order.settings or Settings()
     atlas = build_atlas(read_sent(order.drawing).sketch, settings.localizer.atlas)
     page = Page(atlas.sketch)
     told = None if order.start is None else (*page.file_point(*order.start[:2]), *order.start[2:])
     if isinstance(order.world, RecordingOrder):
-        return open_recording(order.world, atlas, page, told, order.seed)
+        return open_recording(order.world, atlas, page, told, seed=order.seed, settings=settings)
     goal = goal_of(order, page)
     if isinstance(order.world, MadeRealOrder):
         return made_real(order.world, atlas, page, goal=goal, told=told, seed=order.seed, settings=settings)
@@ -164,13 +164,19 @@ def set_stage(order: Order) -> Show:
 
 
 def open_recording(
-    order: RecordingOrder, atlas: Atlas, page: Page, told: tuple[float, ...] | None, seed: int
+    order: RecordingOrder,
+    atlas: Atlas,
+    page: Page,
+    told: tuple[float, ...] | None,
+    *,
+    seed: int,
+    settings: Settings,
 ) -> Show:
     """Open a log or a journal; UnreadableError if it cannot be read."""
     try:
         if is_records(order.path):
             return playback(atlas, page, order)
-        return replay(atlas, page, order.path, told, seed)
+        return replay(atlas, page, order.path, told, seed=seed, settings=settings)
     except FileError as error:
         raise UnreadableError(f"{error.rule}: {order.title}") from error
 

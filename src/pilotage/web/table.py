@@ -1,6 +1,7 @@
 """What the routes of a server share."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from starlette.requests import HTTPConnection
 
@@ -10,6 +11,9 @@ from pilotage.web.recordings import Recordings
 from pilotage.web.sessions import Sessions
 from pilotage.web.workers import Jobs
 
+if TYPE_CHECKING:
+    from pilotage.config import Settings
+
 
 @dataclass(slots=True)
 class Table:
@@ -17,6 +21,9 @@ class Table:
 
     folder: Folder
     robot: RobotOrder | None = None  # on the network, if there is one
+    settings: "Settings | None" = (
+        None  # of all other robots, and how drawings are divided; None for the defaults
+    )
     jobs: Jobs = field(default_factory=Jobs)
     sessions: Sessions = field(default_factory=Sessions)
     recordings: Recordings = field(init=False)

@@ -11,10 +11,11 @@ from pilotage.web.drawings import ZONES, Json, Page, UnreadableError, describe_d
 from pilotage.web.order import Place, Sent
 
 
-def understand(sent: Sent, ends: tuple[Place, Place] | None = None) -> Json:
+def understand(sent: Sent, ends: tuple[Place, Place] | None = None, settings: Settings | None = None) -> Json:
     """Say what is understood of a drawing, and how one goes from place to place on it.
 
-    A drawing that shows or encloses nothing has no cells, and a finding that says why.
+    A drawing that shows or encloses nothing has no cells, and a finding that says why. `settings` are the
+    defaults if they are None.
     """
     began = time.perf_counter()
     try:
@@ -23,7 +24,9 @@ def understand(sent: Sent, ends: tuple[Place, Place] | None = None) -> Json:
         findings = [failure("unreadable", Severity.ERROR, str(error))]
         return {"v": 1, "ms": elapsed(began), **NOTHING, "findings": findings}
     sketch, page = drawing.sketch, Page(drawing.sketch)
-    found = report(sketch, drawing.interpretation, settings=Settings().localizer.atlas.decomposition)
+    found = report(
+        sketch, drawing.interpretation, settings=(settings or Settings()).localizer.atlas.decomposition
+    )
     findings = [describe_finding(page, one) for one in found.findings]
     told = {**NOTHING, "v": 1, **describe_drawing(sketch), "assumed": list(drawing.remarks)}
     if found.graph is not None:

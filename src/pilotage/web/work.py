@@ -1,8 +1,12 @@
 """What workers do, by name: light to import, so that the server stays so; each loads what it needs."""
 
 from multiprocessing.connection import Connection
+from typing import TYPE_CHECKING
 
 from pilotage.web.order import Order, Place, RobotOrder, Sent
+
+if TYPE_CHECKING:
+    from pilotage.config import Settings
 
 
 def drive(connection: Connection, order: Order) -> None:
@@ -17,11 +21,13 @@ def drive(connection: Connection, order: Order) -> None:
     drive_in_worker(connection, order)
 
 
-def understand(sent: Sent, ends: tuple[Place, Place] | None) -> dict[str, object]:
+def understand(
+    sent: Sent, ends: tuple[Place, Place] | None, settings: "Settings | None"
+) -> dict[str, object]:
     """Say what is understood of a drawing."""
     from pilotage.web import understanding
 
-    return understanding.understand(sent, ends)
+    return understanding.understand(sent, ends, settings)
 
 
 def read_upload(sent: Sent) -> dict[str, object]:
