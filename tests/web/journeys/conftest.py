@@ -1,6 +1,7 @@
 """The drawing table as a person meets it: the real server, and the page in a real browser."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -9,9 +10,9 @@ pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
 from benchmarks.lib.table_browser import opened_browser
 from httpx2 import Client
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Page, expect
 
-from web_page import Sheet
+from web_page import PATIENCE_MS, Sheet
 
 
 @pytest.fixture
@@ -31,7 +32,15 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def page(browser: Browser, address: str) -> Iterator[Page]:
-    """A page that is ready to draw on. It must raise no error and ask nobody but its server."""
+    """A page that is ready to draw on, and has shown nothing before."""
+    with watched(browser, address) as page:
+        yield page
+    end_drives(address)
+
+
+@contextmanager
+def watched(browser: Browser, address: str) -> Iterator[Page]:
+    """Open a page until it can be drawn on. It must raise no error and ask nobody but its server."""
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     page = context.new_page()
     errors: list[str] = []
@@ -41,7 +50,6 @@ def page(browser: Browser, address: str) -> Iterator[Page]:
     page.wait_for_selector("body[data-ready]")
     yield page
     context.close()
-    end_drives(address)
 
     assert [] == errors
 
@@ -59,3 +67,23 @@ def end_drives(address: str) -> None:
 def sheet(page: Page) -> Sheet:
     """The sheet of a page that is ready to draw on."""
     return Sheet(page)
+
+
+@pytest.fixture(scope="module")
+def used_page(browser: Browser, address: str) -> Iterator[Page]:
+    """A page that several tests draw on, one after the other."""
+    with watched(browser, address) as page:
+        yield page
+
+
+@pytest.fixture
+def new_sheet(used_page: Page) -> Sheet:
+    """A new sheet of a page on which others were drawn before."""
+    tools = used_page.get_by_role("toolbar", name="Tools of the drawing table")
+    tools.get_by_role("button", pressed=True).first.click()  # leaves a tool; the pen stays as it was
+    tools.get_by_role("button", name="wall").click()
+    used_page.get_by_role("button", name="File").click()
+    used_page.get_by_role("button", name="New, empty sheet").click()
+    sheet = Sheet(used_page)
+    expect(sheet.summary).to_contain_text("0 cells", timeout=PATIENCE_MS)
+    return sheet

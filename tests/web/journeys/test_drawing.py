@@ -14,6 +14,12 @@ from web_table import TWO_ROOMS
 pytestmark = pytest.mark.slow
 
 
+@pytest.fixture
+def sheet(new_sheet: Sheet) -> Sheet:
+    """A new sheet; loading the page takes longer than most of these tests."""
+    return new_sheet
+
+
 def saved(sheet: Sheet, folder: Path) -> Path:
     """Wait until the drawing is saved; return its file."""
     sheet.page.wait_for_timeout(100)  # a change is told to the page's own state first
