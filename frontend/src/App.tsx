@@ -110,7 +110,11 @@ export function App() {
       (problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)),
     );
   }, [leave, tell]);
-  const beginDrawing = useCallback(() => editor?.setActiveTool({ type: "freedraw" }), [editor]);
+  const beginDrawing = () => {
+    choose("none");
+    setPen("wall");
+    editor?.setActiveTool({ type: "freedraw" });
+  };
   const { opening, openNamed, guarded, origin } = useOpening({ save, whole, show, tell, watch, begin: beginDrawing });
 
   // Once, when the editor is ready: go on with what the address names.

@@ -79,9 +79,6 @@ def used_page(browser: Browser, address: str) -> Iterator[Page]:
 @pytest.fixture
 def new_sheet(used_page: Page) -> Sheet:
     """A new sheet of a page on which others were drawn before."""
-    tools = used_page.get_by_role("toolbar", name="Tools of the drawing table")
-    tools.get_by_role("button", pressed=True).first.click()  # leaves a tool; the pen stays as it was
-    tools.get_by_role("button", name="wall").click()
     used_page.get_by_role("button", name="File").click()
     used_page.get_by_role("button", name="New, empty sheet").click()
     sheet = Sheet(used_page)
