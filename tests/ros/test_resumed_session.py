@@ -31,8 +31,8 @@ def test_a_session_goes_on_where_it_stopped(tmp_path):
 
     assert before["place"] == after["place"]
     assert float(before["probability"]) == pytest.approx(float(after["probability"]), abs=0.2)
-    assert 0.85 < float(after["probability"])
-    assert 0.85 > float(Session(ATLAS, SETTINGS).update(READINGS[11]).belief.values["probability"])
+    assert 0.9 < float(after["probability"])
+    assert 0.9 > float(Session(ATLAS, SETTINGS).update(READINGS[11]).belief.values["probability"])
 
 
 def test_the_gateways_that_were_blocked_are_blocked_again(tmp_path):
