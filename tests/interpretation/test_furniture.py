@@ -22,6 +22,15 @@ def test_where_all_is_drawn_in_one_color_lines_less_than_half_as_wide_as_walls_a
     assert len(graph_of(WITH_GAP).cells) == len(graph_of(marks).cells)
 
 
+def test_lines_just_half_as_wide_as_walls_are_furniture_if_filled_things_are_drawn_so():
+    pen = Pen(BLACK, 0.5)
+    table, shelf = box(20, 20, 28, 26, pen=pen), stroke((60, 70), (64, 70), width=0.5)
+    filled = replace(table, fill=CREAM)
+
+    assert [*[Role.WALL] * 3, Role.FURNITURE, Role.FURNITURE] == roles((*WITH_GAP, filled, shelf))
+    assert [Role.WALL] * 4 == roles((*WITH_GAP, table))
+
+
 def test_a_long_thin_wall_is_one_though_shelves_stand_along_it():
     outer = stroke((5, 0), (100, 0), (100, 75)), stroke((95, 80), (0, 80), (0, 5))  # ways out at two corners
     wall = stroke((50, 0), (50, 36), width=0.3)

@@ -10,7 +10,7 @@ from pilotage.geometry import Array, Polyline, signed_area
 from pilotage.interpretation.sheet import BLACK, WHITE, Bounds, Color, Mark, Sheet
 
 ROUNDING = 1e-6
-"""Relative error that transforms may leave in an area."""
+"""Relative error that transforms may leave in an area or a width."""
 
 FAINT = 0.1
 """Paint that differs less than this from the ground in every channel cannot be seen."""

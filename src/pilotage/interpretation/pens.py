@@ -1,5 +1,6 @@
 """Tell by the pen which lines draw walls, and which rather furniture, thresholds or windows."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -7,7 +8,7 @@ import shapely
 
 from pilotage.interpretation.names import guessed_role, is_room
 from pilotage.interpretation.paint import Seen, parts_of
-from pilotage.interpretation.paper import bounds_of, holds
+from pilotage.interpretation.paper import ROUNDING, bounds_of, holds
 from pilotage.interpretation.sheet import Bounds, Mark, Pen, Role, Sheet, Text
 from pilotage.interpretation.words import is_measure, role_of_words
 
@@ -18,8 +19,9 @@ most ink is in a color."""
 THIN = (0.5, 1.0 / 3.0)
 """A line is thin if its pen is narrower than this share of the one that draws the middle of all ink.
 
-Furniture is drawn so. Inner walls may be, too: where those in a thicker pen enclose too little, the second
-share tells. A hairline is not thin: files have it where no width was chosen.
+Furniture is drawn so; also in a pen just this wide, if filled things have it. Inner walls may be drawn so,
+too: where those in a thicker pen enclose too little, the second share tells. A hairline is not thin: files
+have it where no width was chosen.
 """
 
 BESIDE = 0.005
@@ -48,6 +50,11 @@ def by_style(
     thin = share * usual.width
     is_black = not is_colored(usual)
     places = [(*text.position, *text.position) for text in sheet.texts if names_place(text)]
+    fine = {
+        sheet.marks[mark.number].pen
+        for mark in seen
+        if is_thing(sheet.marks[mark.number], places) and is_just(sheet.marks[mark.number].pen, thin)
+    }
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
     things: list[shapely.Geometry] = []
@@ -55,7 +62,7 @@ def by_style(
     for mark in seen:
         pen = sheet.marks[mark.number].pen
         if pen is not None and not mark.line.is_empty:
-            is_thin = 0.0 < pen.width < thin
+            is_thin = 0.0 < pen.width < thin or pen in fine
             is_other = is_thin or (is_black and is_colored(pen))
             is_named = named.get(mark.number) is Role.WALL
             is_marginal = pen.dashed or (is_other and not is_named)
@@ -73,6 +80,11 @@ def by_style(
         for lines in (main, marginal, things)
     )
     return black, other, around
+
+
+def is_just(pen: Pen | None, width: float) -> bool:
+    """Tell whether a pen is just so wide; a hairline has no width."""
+    return pen is not None and pen.width > 0.0 and math.isclose(pen.width, width, rel_tol=ROUNDING)
 
 
 def is_thing(mark: Mark, places: Sequence[Bounds]) -> bool:
