@@ -39,6 +39,17 @@ def test_turned_walls_are_marked_as_well(bars):
     assert (3 if len(marks) == 7 else 0) == number_of_doors([turned(mark) for mark in marks])
 
 
+def test_bars_are_doors_where_all_lines_are_dashed_and_what_is_written_upon_them_names_no_room():
+    rooms = [box(x, 0, x + 25, 80, pen=Pen(BLACK, 1.0, dashed=True)) for x in (0, 25, 50, 75)]
+    bars = [box(x - 1, 30, x + 1, 42, pen=Pen(BLACK, 1.0, dashed=True), fill=RED) for x in (25, 50, 75)]
+    names = [Text(f"D{x}", (x + 0.5, 36.0), height=1.0) for x in (25, 50, 75)]
+
+    graph = graph_of((*rooms, *bars), tuple(names))
+
+    assert 3 == len(graph.gateways)
+    assert {""} == {cell.label for cell in graph.cells}
+
+
 def test_bars_on_outer_walls_are_windows():
     windows = [stroke((x, 0), (x + 8, 0), width=3.0) for x in (5, 35, 60, 85)]
 

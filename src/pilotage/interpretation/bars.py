@@ -14,7 +14,7 @@ from pilotage.interpretation.dashed import dashed_among
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.pieces import on_grid
 from pilotage.interpretation.segments import Segments, segments_of
-from pilotage.interpretation.sheet import Sheet
+from pilotage.interpretation.sheet import Sheet, Text
 
 SIZES = (0.004, 0.12)
 """Least and largest length of a bar as a share of the drawing's diagonal."""
@@ -211,6 +211,16 @@ def without_bars(seen: Sequence[Seen], bars: Sequence[Bar], diagonal: float) -> 
         elif place not in gone:
             left.append(mark)
     return left
+
+
+def written_upon(bars: Sequence[Bar], texts: Sequence[Text]) -> set[int]:
+    """List the texts that stand upon bars, by number."""
+    return {
+        number
+        for number, text in enumerate(texts)
+        for bar in bars
+        if shapely.LineString(bar.ends).distance(shapely.Point(text.position)) < bar.width / 2.0
+    }
 
 
 def opened_bars(bars: Sequence[Bar]) -> tuple[Polyline, ...]:

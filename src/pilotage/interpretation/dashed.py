@@ -27,13 +27,10 @@ def find_dashed(
 ) -> set[int]:
     """Find the marks that draw openings: thresholds, and edges of what is overhead.
 
-    They are none if they are called walls, or if most lines of a drawing are dashed.
+    They are none if they are called walls.
     """
     dashed = dashed_among(sheet, seen)
     through = [mark.line for mark in seen if mark.number not in dashed]
-    lengths = {mark.number: mark.line.length for mark in seen}
-    if sum(lengths[number] for number in dashed) > MOSTLY * sum(lengths.values()):
-        return set()
     tree = shapely.STRtree(through)
     return {
         mark.number
@@ -46,8 +43,10 @@ def find_dashed(
 
 
 def dashed_among(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
-    """List the marks that have a dashed line."""
-    return {mark.number for mark in seen if (pen := sheet.marks[mark.number].pen) and pen.dashed}
+    """List the marks that have a dashed line; none if most lines are dashed."""
+    lengths = {mark.number: mark.line.length for mark in seen}
+    dashed = {number for number in lengths if (pen := sheet.marks[number].pen) and pen.dashed}
+    return dashed if sum(lengths[number] for number in dashed) <= MOSTLY * sum(lengths.values()) else set()
 
 
 def find_axes(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> set[int]:

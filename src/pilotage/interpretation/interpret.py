@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.bars import opened_bars
+from pilotage.interpretation.bars import opened_bars, written_upon
 from pilotage.interpretation.dashed import opened_dashed
 from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import is_floor
@@ -87,8 +87,13 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     """
     texts = view.sheet.texts
     told = [told_role(text.names, layers) for text in texts]
+    upon_doors = written_upon(parts.bars, texts)
     plain = [
-        (Role.IGNORE, "the north of a compass") if number in parts.written else role_of_words(text.text)
+        (Role.IGNORE, "the north of a compass")
+        if number in parts.written
+        else (Role.IGNORE, "the name of a door or a window")
+        if number in upon_doors
+        else role_of_words(text.text)
         for number, text in enumerate(texts)
     ]
     own = common_names(view.sheet, view.drawn)
