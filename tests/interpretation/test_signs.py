@@ -39,6 +39,14 @@ def test_a_circle_around_a_letter_of_the_north_is_a_compass_with_its_needle_and_
     assert ([Role.IGNORE] * 2, ()) == roles(disc(90, 70, 5, Pen(BLACK, 1.0)), needle, texts=letters)
 
 
+@pytest.mark.parametrize(("y", "role"), [(77.0, Role.IGNORE), (45.0, Role.WALL)], ids=["beside", "far"])
+def test_the_letter_of_the_north_may_stand_beside_the_circle_of_its_compass(y, role):
+    found, labels = roles(disc(90, 70, 5, Pen(BLACK, 1.0)), texts=(Text("N", (90.0, y), 2.0),))
+
+    assert [role] == found
+    assert (role is Role.WALL) is bool(labels)
+
+
 def test_a_circle_without_an_n_and_an_n_without_a_circle_stay():
     found, labels = roles(disc(90, 70, 5, Pen(BLACK, 1.0)), texts=(Text("N", (20.0, 20.0), 2.0),))
 

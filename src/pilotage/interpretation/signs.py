@@ -7,7 +7,7 @@ import numpy as np
 
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.paper import SAME, area_of, bounds_of, difference, holds
-from pilotage.interpretation.sheet import Color, Mark, Sheet
+from pilotage.interpretation.sheet import Bounds, Color, Mark, Sheet
 
 LARGEST = 0.1
 """No sign is wider than this share of the drawing's diagonal: a round hall is."""
@@ -23,7 +23,7 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
     """Find the marks that are signs, and the texts in them, by number.
 
     Lamps, sensors and pins are discs in a color that nothing else has; a compass is a circle around the
-    letter of the north, maybe with those of other points.
+    letter of the north, or with it beside, maybe with those of other points.
     """
     small = {mark.number for mark in seen if is_circle(sheet.marks[mark.number], LARGEST * diagonal)}
     others = {
@@ -36,7 +36,7 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
         and all(difference(fill, color) >= SAME for color in others)
     }
     norths = [text for text in sheet.texts if text.text.strip() in NORTHS]
-    boxes = [bounds_of(sheet.marks[number]) for number in sorted(small)]
+    boxes = [around(bounds_of(sheet.marks[number])) for number in sorted(small)]
     compasses = [box for box in boxes if any(holds(box, (*text.position, *text.position)) for text in norths)]
     parts = {
         mark.number
@@ -50,6 +50,17 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
         and any(holds(box, (*text.position, *text.position)) for box in compasses)
     }
     return discs | parts, texts
+
+
+def around(box: Bounds) -> Bounds:
+    """Return a box with a margin of half its own width.
+
+    >>> around((0.0, 0.0, 2.0, 2.0))
+    (-1.0, -1.0, 3.0, 3.0)
+    """
+    left, bottom, right, top = box
+    margin = (right - left) / 2.0
+    return left - margin, bottom - margin, right + margin, top + margin
 
 
 def is_circle(mark: Mark, largest: float) -> bool:
