@@ -138,6 +138,17 @@ def test_dashed_axes_run_through_a_building_and_beyond_and_part_no_rooms():
     assert len(graph_of(walls).cells) < len(graph_of((*walls, stroke((4, 50), (96, 50)))).cells)
 
 
+def test_lines_of_a_grid_run_beyond_all_that_is_in_other_pens_and_part_no_rooms():
+    grid = [stroke((-15, y), (115, y), color=(0.8, 0.8, 0.8)) for y in (10, 20, 60)]
+    walls = [stroke((0, y), (100, y), color=(0.8, 0.8, 0.8)) for y in (10, 20, 60)]
+
+    understood = interpret(Sheet((*grid, *WITH_GAP)))
+
+    assert [Role.IGNORE] * 3 == [meaning.role for meaning in understood.meanings[:3]]
+    assert len(graph_of(WITH_GAP).cells) == len(graph_of((*grid, *WITH_GAP)).cells)
+    assert len(graph_of(WITH_GAP).cells) < len(graph_of((*walls, *WITH_GAP)).cells)
+
+
 def test_dashed_lines_from_wall_to_wall_are_openings_if_others_are_drawn_through():
     wall, edge = stroke((50, 0), (50, 50)), stroke((50, 50), (50, 80), dashed=True)
     loose = stroke((50, 60), (50, 75), dashed=True)

@@ -1,13 +1,15 @@
-"""Find dashed lines that are no walls: openings from wall to wall, and axes that run through a building."""
+"""Find lines that are no walls: dashed openings from wall to wall, and axes that run through a building."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from pilotage.geometry import Polyline
 from pilotage.interpretation.paint import Seen, shapes_of
-from pilotage.interpretation.sheet import Role, Sheet
+from pilotage.interpretation.sheet import Pen, Role, Sheet
 
 MOSTLY = 0.5
 """Of a drawing of which a greater share is dashed, dashed lines are its walls."""
@@ -17,6 +19,9 @@ LONGEST = 0.3
 
 NEAR = 0.005
 """Ends that come this near to another line lie on it, as a share of the drawing's diagonal."""
+
+GRID = 3
+"""So many lines of one pen at least are a grid."""
 
 MOST_VERTICES = 4
 """An opening turns at a few corners; what has more vertices is a curve."""
@@ -50,25 +55,56 @@ def dashed_among(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
 
 
 def find_axes(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> set[int]:
-    """Find the marks that draw axes and sections: straight, dashed, and beyond all that they cross."""
+    """Find the marks that draw axes and sections: straight, dashed, and beyond all that they cross.
+
+    So are the lines of a grid, which need no dashes: all that is in their pen ends outside of all else.
+    """
     dashed = dashed_among(sheet, seen)
-    through = shapes_of([mark for mark in seen if mark.number not in dashed]).ravel()
-    tree = shapely.STRtree(through)
-    found = set()
+    pens: dict[Pen | None, list[int]] = defaultdict(list)
     for mark in seen:
-        outlines = sheet.marks[mark.number].outlines
-        if mark.number not in dashed or len(outlines) != 1 or len(outlines[0]) != 2:
+        pens[sheet.marks[mark.number].pen].append(mark.number)
+    found = set()
+    for numbers in pens.values():
+        lines = straight_among(sheet, numbers)
+        may_be_grid = GRID <= len(lines) == len(numbers)
+        if dashed.isdisjoint(numbers) and not may_be_grid:
             continue
-        line = shapely.LineString(outlines[0].vertices)
-        crossed = through[tree.query(line, predicate="intersects")]
-        if line.length <= LONGEST * diagonal or len(crossed) < 2:
-            continue
-        points = shapely.points(shapely.get_coordinates(shapely.intersection(line, crossed)))
-        along = shapely.line_locate_point(line, points)
-        beyond = min(along.min(), line.length - along.max())
-        if beyond > NEAR * diagonal and np.ptp(along) > MOSTLY * line.length:
-            found.add(mark.number)
+        through = shapes_of([mark for mark in seen if mark.number not in dashed.union(numbers)]).ravel()
+        tree = shapely.STRtree(through)
+        axes = {number for number, line in lines.items() if is_axis(line, tree, diagonal)}
+        if not dashed.isdisjoint(numbers):
+            found |= axes
+        elif len(axes) >= GRID and are_outside(lines, through, diagonal):
+            found.update(numbers)
     return found
+
+
+def straight_among(sheet: Sheet, numbers: Iterable[int]) -> dict[int, shapely.LineString]:
+    """Return the marks that are one line between two points, each as it was drawn."""
+    return {
+        number: shapely.LineString(outlines[0].vertices)
+        for number in numbers
+        if len(outlines := sheet.marks[number].outlines) == 1 and len(outlines[0]) == 2
+    }
+
+
+def are_outside(
+    lines: Mapping[int, shapely.LineString], others: NDArray[np.object_], diagonal: float
+) -> bool:
+    """Tell whether all lines end outside of the box around all else."""
+    box = shapely.buffer(shapely.box(*shapely.total_bounds(others)), NEAR * diagonal)
+    return bool(shapely.disjoint(box, shapely.multipoints(shapely.get_coordinates(list(lines.values())))))
+
+
+def is_axis(line: shapely.LineString, through: shapely.STRtree, diagonal: float) -> bool:
+    """Tell whether a straight line is long, and goes beyond all that it crosses."""
+    crossed = through.geometries[through.query(line, predicate="intersects")]
+    if line.length <= LONGEST * diagonal or len(crossed) < 2:
+        return False
+    points = shapely.points(shapely.get_coordinates(shapely.intersection(line, crossed)))
+    along = shapely.line_locate_point(line, points)
+    beyond = min(along.min(), line.length - along.max())
+    return bool(beyond > NEAR * diagonal and np.ptp(along) > MOSTLY * line.length)
 
 
 def is_opening(line: Polyline, tree: shapely.STRtree, diagonal: float) -> bool:
