@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flats import BLACK, WITH_GAP
+from flats import BLACK, WHITE, WITH_GAP, box, graph_of
 from pilotage.geometry import Polyline
 from pilotage.interpretation import Mark, Pen, Role, Sheet, Text, interpret
 
@@ -52,3 +52,16 @@ def test_a_circle_without_an_n_and_an_n_without_a_circle_stay():
 
     assert [Role.WALL] == found
     assert ["N"] == [label.text for label in labels]
+
+
+def test_a_box_around_the_words_of_a_room_is_a_plate_and_two_are_booths():
+    rooms = [box(x, 0, x + 50, 80, pen=Pen(BLACK, 1.0)) for x in (0, 50)]
+    plates = [box(x, y, x + 20, y + 8, pen=Pen(BLACK, 1.0), fill=WHITE) for x, y in ((65, 30), (15, 50))]
+    booth = box(15, 10, 35, 18, pen=Pen(BLACK, 1.0), fill=WHITE)
+    names = [Text(name, at, 3.0) for name, at in (("hall", (75, 34)), ("bath", (25, 54)), ("A1", (25, 14)))]
+
+    named = graph_of((*rooms, *plates), tuple(names[:2]))
+    fair = interpret(Sheet((*rooms, *plates, booth), tuple(names)))
+
+    assert ["bath", "hall"] == sorted(cell.label for cell in named.cells)
+    assert [Role.IGNORE, Role.WALL, Role.WALL] == [meaning.role for meaning in fair.meanings[2:]]

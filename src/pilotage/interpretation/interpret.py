@@ -177,7 +177,9 @@ def evidence_of(view: View, parts: Parts, painted: Sequence[int]) -> Evidence:
             **dict.fromkeys(parts.areas, Meaning(Role.IGNORE, "the outline of a room, along its walls")),
             **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),
             **dict.fromkeys(parts.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),
-            **dict.fromkeys(parts.signs, Meaning(Role.IGNORE, "a disc in a color of its own, or a compass")),
+            **dict.fromkeys(
+                parts.signs, Meaning(Role.IGNORE, "a disc in a color of its own, a compass or a plate")
+            ),
             **named,
         },
         parts.built,

@@ -16,6 +16,7 @@ from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.halves import Half, find_halves, without_halves
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.patches import Bridge, find_bridges, find_patched, without_bridges
+from pilotage.interpretation.plates import find_plates
 from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.signs import find_signs
 from pilotage.interpretation.stairs import find_stairs
@@ -34,7 +35,7 @@ class Parts:
     """What was found among the visible marks; numbers are those of the sheet."""
 
     measuring: AbstractSet[int]  # dimension lines
-    signs: AbstractSet[int]  # discs and compasses
+    signs: AbstractSet[int]  # discs, compasses and plates
     written: AbstractSet[int]  # texts of these
     areas: AbstractSet[int]  # outlines of rooms, along their walls
     built: Sequence[Seen]  # marks that are none of these
@@ -58,6 +59,7 @@ def take_apart(view: View) -> Parts:
     measuring = find_dimensions(sheet, built, view.guessed, view.lettering, diagonal)
     unnamed = [mark for mark in built if mark.number not in view.guessed]
     signs, written = find_signs(sheet, unnamed, diagonal)
+    signs |= find_plates(sheet, unnamed)
     built = [mark for mark in built if mark.number not in measuring | signs]
     axes = find_axes(sheet, [mark for mark in built if mark.number not in view.guessed], diagonal)
     built = [mark for mark in built if mark.number not in axes]
