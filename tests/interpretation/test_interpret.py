@@ -385,3 +385,12 @@ def test_outlines_of_rooms_along_walls_of_a_layer_of_their_own_close_no_door():
     assert are_joined((*walls, *areas))
     assert not are_joined((*WITH_GAP, *areas))  # no layer says what is a wall
     assert not are_joined((walls[0], *areas))  # it holds the outer walls alone
+
+
+def test_bare_numbers_are_lengths_where_most_rooms_have_several_and_else_name_rooms():
+    rooms = [box(x, 0, x + 40, 80, pen=Pen(BLACK, 1.0)) for x in (0, 40, 80)]
+    names = [Text(name, (x, 40), 3.0) for name, x in (("bath", 20), ("hall", 60), ("lab", 100))]
+    lengths = [Text(f"{100 * x + y}", (x, y), 1.5) for x in (20, 60, 100) for y in (15, 65)]
+
+    assert {"bath", "hall", "lab"} == {cell.label for cell in graph_of(rooms, (*names, *lengths)).cells}
+    assert "hall, 6015" in {cell.label for cell in graph_of(rooms, (*names, *lengths[::2])).cells}

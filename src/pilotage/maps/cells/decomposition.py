@@ -26,6 +26,9 @@ from pilotage.maps.schematic import Label, SchematicMap, diameter_of
 SMALL, LARGE = 0.7, 1.4
 """A cell is small or large if its outline is shorter or longer than these shares of the median outline."""
 
+LEAST_ROOMS, SEVERAL = 3, 2
+"""So many rooms at least have a name in words, and most of them so many bare numbers: these are lengths."""
+
 NO_DOORS = "a drawing must show rooms with doors, this one has none: a door is a gap in a wall"
 
 
@@ -131,7 +134,7 @@ def new_cells(
 def words_in(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> list[list[str]]:
     """Sort labels by the polygon that each stands in; those outside all are left out.
 
-    Where names are told, what is written in the same polygon is left out, too.
+    Where names are told, what is written in the same polygon is left out, too; so are lengths.
     """
     found: list[list[Label]] = [[] for _ in polygons]
     for label in labels:
@@ -141,7 +144,24 @@ def words_in(polygons: list[shapely.Polygon], labels: tuple[Label, ...]) -> list
                 found[number].append(label)
                 break
     told = [[label for label in here if label.told] for here in found]
-    return [[label.text for label in names or here] for names, here in zip(told, found, strict=True)]
+    return without_lengths(
+        [[label.text for label in names or here] for names, here in zip(told, found, strict=True)]
+    )
+
+
+def without_lengths(words: list[list[str]]) -> list[list[str]]:
+    """Leave out bare numbers beside words, where most rooms have several: one is the number of its room.
+
+    >>> without_lengths([["Kitchen", "3200", "2450"], ["Hall", "1200", "930"], ["Bath", "2100", "880"]])
+    [['Kitchen'], ['Hall'], ['Bath']]
+    >>> without_lengths([["Office", "201"], ["Hall", "1", "2", "3"], ["Bath"]])
+    [['Office', '201'], ['Hall', '1', '2', '3'], ['Bath']]
+    """
+    spoken = [[text for text in here if not text.replace(" ", "").isdecimal()] for here in words]
+    counts = [len(here) - len(names) for here, names in zip(words, spoken, strict=True) if names]
+    if len(counts) < LEAST_ROOMS or np.median(counts) < SEVERAL:
+        return words
+    return [names or here for here, names in zip(words, spoken, strict=True)]
 
 
 def vertices_of(ring: shapely.LinearRing) -> Array:
