@@ -51,6 +51,14 @@ STROKE = 'stroke="black" fill="none"'
             1,
         ),
         (LINE + '<path aria-label="L T" d="M8 1V3H9ZM10 1H12V2Z"/>', "", ["L T"], 1),  # letters as outlines
+        (  # as matplotlib writes them
+            LINE + '<g id="text_1"><!-- L &amp; T --><g><path d="M8 1V3H9ZM9 1V2ZM10 1H12V2Z"/></g></g>',
+            "",
+            ["L & T"],
+            1,
+        ),
+        (LINE + '<g id="text_1"><!-- Hall --><!----></g>', "", [], 1),
+        (LINE + '<g id="desks"><!-- L T --><g><path d="M8 1V3H9ZM10 1H12V2Z"/></g></g>', "", [], 3),
         (f'<rect width="9" height="9" {STROKE}><title>Bath</title></rect>', "", ["Bath"], 1),
         (f'<g {STROKE}><title>Layer 1</title><rect width="9" height="9"/></g>', "", [], 1),
         (

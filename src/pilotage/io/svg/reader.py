@@ -19,6 +19,7 @@ from pilotage.io.clip import Clip
 from pilotage.io.colors import read_color
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.clips import ROUNDING, Clips
+from pilotage.io.svg.comments import read_tree
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.outlines import FLATNESS, Bounds, bounds_of, outline_of
 from pilotage.io.svg.style import local_name, resolved
@@ -111,7 +112,7 @@ def read_document(path: Path) -> ET.Element:
     """Parse the file and return its root, an `svg` element."""
     check_regular(path)
     try:
-        root = ET.fromstring(read_bytes(path, LARGEST))  # noqa: S314  # expat itself refuses entity bombs
+        root = read_tree(read_bytes(path, LARGEST))
     except (ET.ParseError, LookupError, ValueError) as error:
         raise FileError(f"an SVG drawing must be well-formed XML ({error})", path) from error
     if local_name(root.tag) != "svg":
