@@ -36,6 +36,10 @@ def in_file(sketch: SchematicMap):
 
 LINE = '<line x1="1" y1="2" x2="3" y2="5" stroke="black"/>'
 STROKE = 'stroke="black" fill="none"'
+CHART = (
+    f'<g id="axes_1">{{}}{LINE}<g id="patch_3"><path {STROKE} d="M 0 9 L 0 0 "/></g>'
+    f'<g id="patch_4"><path {STROKE} d="M 1 9 L 1 0 L 5 0"/></g></g>'
+)
 
 
 @pytest.mark.parametrize(
@@ -58,6 +62,8 @@ STROKE = 'stroke="black" fill="none"'
             1,
         ),
         (LINE + '<g id="text_1"><!-- Hall --><!----></g>', "", [], 1),
+        (CHART.format('<g id="matplotlib.axis_1"/>'), "", [], 2),  # its frame is no wall
+        (CHART.format(""), "", [], 3),
         (LINE + '<g id="desks"><!-- L T --><g><path d="M8 1V3H9ZM10 1H12V2Z"/></g></g>', "", [], 3),
         (f'<rect width="9" height="9" {STROKE}><title>Bath</title></rect>', "", ["Bath"], 1),
         (f'<g {STROKE}><title>Layer 1</title><rect width="9" height="9"/></g>', "", [], 1),

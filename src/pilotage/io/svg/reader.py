@@ -19,8 +19,8 @@ from pilotage.io.clip import Clip
 from pilotage.io.colors import read_color
 from pilotage.io.files import check_regular, read_bytes
 from pilotage.io.svg.clips import ROUNDING, Clips
-from pilotage.io.svg.comments import read_tree
 from pilotage.io.svg.flatten import flatten
+from pilotage.io.svg.matplotlib import read_tree
 from pilotage.io.svg.outlines import FLATNESS, Bounds, bounds_of, outline_of
 from pilotage.io.svg.style import local_name, resolved
 from pilotage.io.svg.tree import WORDED, Document, Drawn

@@ -13,8 +13,8 @@ from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
 from pilotage.interpretation.names import SPACES, guessed_role, holds_rooms, is_room, name_words
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import on_paper
-from pilotage.io.svg.comments import LABEL
 from pilotage.io.svg.flatten import flatten
+from pilotage.io.svg.matplotlib import LABEL
 from pilotage.io.svg.outlines import FLATNESS
 from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing, names_of

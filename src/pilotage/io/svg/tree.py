@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 from svgelements import Matrix, Viewbox
 
 from pilotage.interpretation import Role
-from pilotage.io.svg.comments import LABEL
+from pilotage.io.svg.matplotlib import LABEL
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.servers import REFERENCE, PaintServers
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name, with_variables
