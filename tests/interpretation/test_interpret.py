@@ -394,3 +394,10 @@ def test_bare_numbers_are_lengths_where_most_rooms_have_several_and_else_name_ro
 
     assert {"bath", "hall", "lab"} == {cell.label for cell in graph_of(rooms, (*names, *lengths)).cells}
     assert "hall, 6015" in {cell.label for cell in graph_of(rooms, (*names, *lengths[::2])).cells}
+
+
+def test_words_that_are_only_called_words_are_of_what_holds_them():
+    ticks = (Text(str(x), (x, -5), height=3.0, names=("axis", "text_1")) for x in (0, 50))
+    found = interpret(Sheet(WITH_GAP, (*LABELS, *ticks)))
+
+    assert [Role.LABEL, Role.LABEL, Role.IGNORE, Role.IGNORE] == [one.role for one in found.text_meanings]

@@ -103,7 +103,8 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
             [
                 name
                 for name in text.names
-                if name in of_marks or (name not in own and not is_of_words(name, text.text))
+                if (name in of_marks or (name not in own and not is_of_words(name, text.text)))
+                and not says_text(name)
             ]
         )
         for text in texts
@@ -115,6 +116,12 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     ):
         called = [None] * len(texts)
     return [a or b or c for a, b, c in zip(told, called, plain, strict=True)]
+
+
+def says_text(name: str) -> bool:
+    """Tell whether a name of words says but that they are words: what holds them tells more."""
+    role = guessed_role([name])
+    return role is not None and role[0] is Role.LABEL
 
 
 def is_of_words(name: str, words: str) -> bool:
