@@ -62,6 +62,16 @@ def test_a_line_of_a_negative_width_is_a_hairline(tmp_path):
     assert 3 == len(interpret(sheet).sketch.strokes)
 
 
+@pytest.mark.parametrize(("opacity", "count"), [(0.05, 1), (0.5, 2)])
+def test_a_line_that_is_nearly_transparent_is_none(tmp_path, opacity, count):
+    path = tmp_path / "plan.pdf"
+    states = f"/Resources << /ExtGState << /Thin << /CA {opacity} >> >>"
+    path.write_text(pdf("10 20 m 90 20 l S /Thin gs 10 40 m 90 40 l S").replace("/Resources <<", states))
+    sheet = read_pdf(path)
+
+    assert count == len(sheet.marks)
+
+
 def test_matrices_and_curves(tmp_path):
     quarter = "1 0 m 1 0.5523 0.5523 1 0 1 c S"
     (mark,) = read(tmp_path, f"0 10 -10 0 100 50 cm {quarter}").marks  # a quarter turn, ten times as large

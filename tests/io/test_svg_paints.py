@@ -112,3 +112,10 @@ def test_faint_paint_is_read_if_there_is_no_other(tmp_path):
 
     assert channels(alone.fill) == (191, 191, 191)
     assert channels(beside.fill) == (255, 0, 0)
+
+
+def test_a_line_that_is_nearly_transparent_is_none_and_erases_no_wall(tmp_path):
+    wall, grid = '<path d="M0 5H9" stroke="#000"/>', '<path d="M0 5H9" stroke="#999" stroke-opacity="{}"/>'
+
+    assert 1 == len(marks(tmp_path, wall + grid.format(0.2)))
+    assert 2 == len(marks(tmp_path, wall + grid.format(0.4)))

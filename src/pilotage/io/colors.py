@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from pilotage.interpretation.sheet import Color
+from pilotage.interpretation.paper import FAINT, difference
+from pilotage.interpretation.sheet import WHITE, Color
 
 NOTHING = frozenset(("", "none", "transparent", "inherit"))
 
@@ -38,3 +39,12 @@ def on_paper(rgb: Sequence[int], opacity: float) -> Color:
     """
     red, green, blue = (1.0 - opacity * (1.0 - value / 255.0) for value in rgb)
     return red, green, blue
+
+
+def is_hint(rgb: Sequence[int], opacity: float) -> bool:
+    """Tell whether paint in a color is so thin that it cannot be seen on paper: it hides nothing either.
+
+    >>> is_hint((0, 0, 0), 0.05), is_hint((0, 0, 0), 0.2), is_hint((255, 255, 255), 1.0)
+    (True, False, False)
+    """
+    return difference(on_paper(rgb, opacity), WHITE) < FAINT <= difference(on_paper(rgb, 1.0), WHITE)

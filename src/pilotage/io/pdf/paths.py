@@ -9,7 +9,7 @@ import pypdfium2.raw as pdfium
 
 from pilotage.geometry import Affine2, Array
 from pilotage.interpretation.sheet import Color
-from pilotage.io.colors import on_paper
+from pilotage.io.colors import is_hint, on_paper
 from pilotage.io.curves import bezier
 from pilotage.io.pdf.frame import affine
 
@@ -88,11 +88,12 @@ def paint_of(handle: Handle) -> tuple[Color | None, Color | None, bool]:
 
 
 def color_of(handle: Handle, read: Callable[..., int]) -> Color | None:
-    """Return a color as it looks on white paper; None if it is transparent."""
+    """Return a color as it looks on white paper; None if it is transparent, or nearly so."""
     red, green, blue, alpha = ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint()
     if not read(handle, red, green, blue, alpha) or alpha.value == 0:
         return None
-    return on_paper((red.value, green.value, blue.value), alpha.value / 255.0)
+    rgb, opacity = (red.value, green.value, blue.value), alpha.value / 255.0
+    return None if is_hint(rgb, opacity) else on_paper(rgb, opacity)
 
 
 def stroke_of(handle: Handle) -> tuple[float, bool]:

@@ -12,7 +12,7 @@ import svgelements
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
 from pilotage.interpretation.names import SPACES, guessed_role, holds_rooms, is_room, name_words
 from pilotage.io.clip import Part, cut
-from pilotage.io.colors import on_paper
+from pilotage.io.colors import is_hint, on_paper
 from pilotage.io.svg.flatten import flatten
 from pilotage.io.svg.matplotlib import LABEL
 from pilotage.io.svg.outlines import FLATNESS
@@ -91,7 +91,7 @@ def read_mark(shape: Shape, tolerance: float, letters: Labeled, opaque: float) -
     pen = read_pen(shape) if drawn.style.stroked and opacity(drawn, "stroke") >= opaque else None
     filled = drawn.style.filled and has_area(drawn.element) and opacity(drawn, "fill") >= opaque
     fill = color_of(drawn, "fill") if filled else None
-    if pen is None and drawn.style.stroked and fill is None:
+    if pen is None and drawn.style.stroked and fill is None and can_be_seen(drawn):
         pen = read_pen(shape)
     if not outlines or (pen is None and fill is None):
         return
@@ -131,8 +131,18 @@ def read_pen(shape: Shape) -> Pen:
 
 def color_of(drawn: Drawn, name: str) -> Color:
     """Read the color of "stroke" or "fill" as it looks on white paper."""
+    return on_paper(*paint_of(drawn, name))
+
+
+def paint_of(drawn: Drawn, name: str) -> tuple[tuple[int, int, int], float]:
+    """Read red, green and blue of "stroke" or "fill", 0 to 255, and how much of it hides what lies below."""
     color = svgelements.Color(drawn.style.paint(name))
-    return on_paper((color.red, color.green, color.blue), opacity(drawn, name))
+    return (color.red, color.green, color.blue), opacity(drawn, name)
+
+
+def can_be_seen(drawn: Drawn) -> bool:
+    """Tell whether a line is more than a hint of its color."""
+    return not is_hint(*paint_of(drawn, "stroke"))
 
 
 def opacity(drawn: Drawn, name: str) -> float:
