@@ -73,3 +73,22 @@ def test_a_thin_box_beside_a_building_is_a_legend_and_no_room():
 @pytest.mark.parametrize(("width", "role"), [(0.3, Role.FURNITURE), (1.0, Role.WALL)])
 def test_a_long_dashed_line_is_an_aisle_if_it_is_thin_too(width, role):
     assert role is roles((*WITH_GAP, stroke((54, 20), (98, 20), width=width, dashed=True)))[-1]
+
+
+@pytest.mark.parametrize(
+    ("words", "role"), [("Sofa", Role.FURNITURE), ("Store", Role.WALL), ("Wardrobe", Role.WALL)]
+)
+def test_a_box_in_the_pen_of_walls_is_furniture_if_such_a_word_fills_it(words, role):
+    sheet = Sheet((*WITH_GAP, box(10, 10, 30, 20, pen=Pen(BLACK, 1.0))), (Text(words, (20, 15), height=3.0),))
+    found = interpret(sheet)
+
+    assert role is found.meanings[-1].role
+    assert (role is Role.WALL) == (found.text_meanings[0].role is Role.LABEL)
+
+
+@pytest.mark.parametrize("other", [(), (Text("Bath", (15, 25), height=3.0),)])
+def test_a_box_that_a_word_does_not_fill_or_with_two_is_a_room(other):
+    room = box(10, 10, 30 if other else 40, 30, pen=Pen(BLACK, 1.0))
+    sheet = Sheet((*WITH_GAP, room), (Text("Sofa", (20, 15), height=3.0), *other))
+
+    assert Role.WALL is interpret(sheet).meanings[-1].role

@@ -96,7 +96,7 @@ def test_two_fills_are_signs_and_words_far_apart_are_on_furniture():
     signs = interpret(Sheet((*marks, *WITH_GAP), texts)).meanings
     assert [Role.FLOOR] * 2 == [meaning.role for meaning in signs[:2]]
     desks = tuple(box(x, y, x + 8, y + 6, fill=BLUE) for x, y in ((10, 10), (80, 10), (10, 60), (80, 60)))
-    words = tuple(Text("desk", (x, y), 2.0) for x, y in ((14, 13), (84, 13), (14, 63), (84, 63)))
+    words = tuple(Text("Ana", (x, y), 2.0) for x, y in ((14, 13), (84, 13), (14, 63), (84, 63)))
 
     meanings = interpret(Sheet((OUTSIDE, *desks), words)).meanings
 

@@ -87,15 +87,12 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     """
     texts = view.sheet.texts
     told = [told_role(text.names, layers) for text in texts]
-    upon_doors = written_upon(parts.bars, texts)
-    plain = [
-        (Role.IGNORE, "the north of a compass")
-        if number in parts.written
-        else (Role.IGNORE, "the name of a door or a window")
-        if number in upon_doors
-        else role_of_words(text.text)
-        for number, text in enumerate(texts)
-    ]
+    parts_of_things = {
+        **dict.fromkeys(parts.written, (Role.IGNORE, "the north of a compass")),
+        **dict.fromkeys(written_upon(parts.bars, texts), (Role.IGNORE, "the name of a door or a window")),
+        **dict.fromkeys(view.written, (Role.IGNORE, "the name of the furniture around it")),
+    }
+    plain = [parts_of_things.get(number, role_of_words(text.text)) for number, text in enumerate(texts)]
     own = common_names(view.sheet, view.drawn)
     of_marks = {name for mark in view.sheet.marks for name in mark.names} - own
     called = [

@@ -13,6 +13,7 @@ from pilotage.interpretation.names import colors_of, guessed_role, told_role
 from pilotage.interpretation.paint import Seen, look_at
 from pilotage.interpretation.paper import Paper, boxes_of, find_paper
 from pilotage.interpretation.sheet import Role, Sheet, Text
+from pilotage.interpretation.written import find_written
 
 CLOSING = (Role.WALL, Role.DOOR, Role.WINDOW, Role.STAIRS)
 """What a person makes one of these stays a part of the building."""
@@ -36,6 +37,7 @@ class View:
     drawn: Sequence[int]  # marks that may be of the building, and are no paper
     letters: AbstractSet[int]  # letters that were turned into outlines
     called: Mapping[int, tuple[Role, str] | None]  # role of each drawn mark by what people call it
+    written: AbstractSet[int]  # texts that name the furniture they stand in
     visible: Sequence[Seen]
     diagonal: float  # [drawing units]
 
@@ -79,6 +81,9 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     called = {number: guessed_role(names) for number, names in names_inside(sheet, drawn).items()}
+    written = find_written(sheet, drawn, diagonal)
+    for number in [number for number in written if called[number] is None]:
+        called[number] = Role.FURNITURE, f"in it is written {sheet.texts[written[number]].text!r}"
     others = [number for number in drawn if number not in letters and not is_furniture(called[number])]
     if diagonal_of(sheet, others) < AROUND * diagonal:  # rooms are called by what stands in them
         called = {number: None if is_furniture(role) else role for number, role in called.items()}
@@ -87,7 +92,8 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     guessed = {
         mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
     }
-    return View(sheet, told, closing, guessed, paper, drawn, letters, called, visible, diagonal)
+    things = set(written.values())
+    return View(sheet, told, closing, guessed, paper, drawn, letters, called, things, visible, diagonal)
 
 
 def is_furniture(named: tuple[Role, str] | None) -> bool:
