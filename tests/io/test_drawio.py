@@ -219,3 +219,15 @@ def test_boxes_with_labels_of_doors_lie_over_the_walls_of_rooms_and_open_them(tm
 
     assert ["Bath", "Kitchen"] == sorted(cell.label for cell in graph.cells)
     assert 1 == len(graph.gateways)
+
+
+def test_boxes_with_labels_of_doors_lead_from_one_room_to_another_that_stands_apart(tmp_path):
+    boxes = {"Kitchen": (0, 0, 300, 200), "Bath": (340, 0, 300, 200), "Door": (300, 80, 40, 30)}
+    boxes["Door 2"] = (100, 200, 30, 30)  # to nowhere
+    cells = (vertex(label, value=label, box=corners) for label, corners in boxes.items())
+    graph = decompose(interpret(read(tmp_path, model(*cells))).sketch, DecompositionSettings())
+    rooms = {cell.label: cell.cell_id for cell in graph.cells if cell.label}
+    (between,) = (cell.cell_id for cell in graph.cells if not cell.label)
+
+    assert {"Bath", "Kitchen"} == set(rooms)
+    assert set(rooms.values()) == {neighbor.cell_id for neighbor in graph.neighbors(between)}

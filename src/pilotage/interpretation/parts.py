@@ -15,7 +15,7 @@ from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.halves import Half, find_halves, without_halves
 from pilotage.interpretation.paint import Seen
-from pilotage.interpretation.patches import Bridge, find_bridges, find_patched, without_bridges
+from pilotage.interpretation.patches import Bridge, find_bridges, find_passages, find_patched, without_bridges
 from pilotage.interpretation.plates import find_plates
 from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.signs import find_signs
@@ -72,10 +72,13 @@ def take_apart(view: View) -> Parts:
     bars = [] if doors else find_bars(sheet, built, called_doors | patched.keys(), diagonal)
     fronts = [] if doors else find_fronts(sheet, built, called_doors, bars, diagonal)
     bridges = find_bridges(sheet, built, patched, diagonal)
+    marked = {built[bar.place].number for bar in (*bars, *fronts)}
+    bridges += [] if doors else find_passages(sheet, built, called_doors - marked, diagonal)
     halves = find_halves(sheet, view.drawn, built, ground, diagonal)
     left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
     left = without_bridges(left, bridges, diagonal)
-    lines = view.all_but(NO_WALLS, left)
+    sides = {bridge.number for bridge in bridges}
+    lines = [mark for mark in left if mark.number in sides or view.role(mark) not in NO_WALLS]
     dashed = find_dashed(sheet, lines, view.guessed, diagonal)
     lines = [mark for mark in lines if mark.number not in dashed]
     walls = find_walls(

@@ -1,16 +1,17 @@
 """Find lines that are drawn upon a patch: a wider stroke in the color of the ground that erases a wall."""
 
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Polyline
-from pilotage.interpretation.bars import NEAR, SIZES, Bar, goes_on
+from pilotage.interpretation.bars import LEVEL, NEAR, SIZES, Bar, goes_on
 from pilotage.interpretation.paint import Seen, parts_of
 from pilotage.interpretation.paper import FAINT, difference
-from pilotage.interpretation.segments import segments_of
+from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Color, Mark, Sheet
 
 WIDER = 2.0
@@ -21,12 +22,16 @@ LEAST = 0.015
 may be a slip of the pen, a patch is none."""
 
 
+CORNERS = 5
+"""Corners of a box, the first once more."""
+
+
 @dataclass(frozen=True, eq=False)
 class Bridge:
-    """A doorway from one box to the next, that a patch and a line along it draw."""
+    """A doorway from one box to the next: a patch and a line along it draw it, or a box that is called so."""
 
-    number: int  # of the line, in its sheet
-    ends: Array  # (2, 2), of the line
+    number: int  # of the line or the box, in its sheet
+    ends: Array  # (2, 2), where it leads from and to
     width: float  # of the doorway [drawing units]
 
     @property
@@ -85,6 +90,42 @@ def find_bridges(
         if leads and not goes_on(Bar(-1, ends, 0.0), others, diagonal):
             found.append(Bridge(number, ends, max(width, LEAST * diagonal)))
     return found
+
+
+def find_passages(
+    sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diagonal: float
+) -> list[Bridge]:
+    """Find the boxes, among those named doors, of which two opposite sides lie on walls, the others on none.
+
+    They lead from one room to another that stands apart.
+    """
+    places = [mark.number for mark in seen if mark.number in named]
+    others = segments_of([mark for mark in seen if mark.number not in named])
+    if not places or not len(others.ends):
+        return []
+    found = []
+    for number in places:
+        mark = sheet.marks[number]
+        if len(mark.outlines) != 1 or len(mark.outlines[0].ring) != CORNERS:
+            continue
+        sides = np.stack([mark.outlines[0].ring[:-1], mark.outlines[0].ring[1:]], axis=1)
+        lengths = np.hypot(*(sides[:, 1] - sides[:, 0]).T)
+        on_wall = [lies_on(side, others, diagonal) for side in sides]
+        if lengths.max() <= SIZES[1] * diagonal and on_wall in ([True, False] * 2, [False, True] * 2):
+            first = on_wall.index(True)
+            ends = sides[[first, first + 2]].mean(axis=1)
+            found.append(Bridge(number, ends, float(lengths[first])))
+    return found
+
+
+def lies_on(side: Array, walls: Segments, diagonal: float) -> bool:
+    """Tell whether the middle and both ends of a side (2, 2) lie on a wall."""
+    points = shapely.points([side[0], side.mean(axis=0), side[1]])
+    near = walls.tree.query(points, predicate="dwithin", distance=NEAR * diagonal)
+    along = (side[1] - side[0]) / np.hypot(*(side[1] - side[0]))
+    steps, lengths = walls.ends[near[1], 1] - walls.ends[near[1], 0], walls.lengths[near[1]]
+    level = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0]) <= LEVEL * lengths
+    return len(np.unique(near[0][level])) == len(points)
 
 
 def without_bridges(seen: Sequence[Seen], bridges: Sequence[Bridge], diagonal: float) -> list[Seen]:
