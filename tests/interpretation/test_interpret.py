@@ -224,6 +224,13 @@ def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_aro
     assert Role.WALL is understood.meanings[-1].role
 
 
+@pytest.mark.parametrize("layer", ["PIPES", "cable-trays 2", "给排水管线"])
+def test_pipes_and_cables_are_no_walls(layer):
+    sheet = Sheet((*WITH_GAP, stroke((20, 0), (20, 80), names=(layer,))))
+
+    assert Role.IGNORE is interpret(sheet).meanings[-1].role
+
+
 @pytest.mark.parametrize("layer", ["A-FURN", "Möbel", "mobilier", "arredo"])
 def test_layers_are_understood_in_several_languages_and_a_hint_wins(layer):
     sheet = Sheet((*WITH_GAP, box(20, 20, 28, 26, pen=Pen(BLACK, 1.0), names=(layer,))))

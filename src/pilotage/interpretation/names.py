@@ -79,6 +79,7 @@ VOCABULARY: Mapping[Role, str] = {
     " landscape landscaping contouring vegetation planting measurement measurements maße medidas misure"
     " maten beam beams joist joists träger traeger balken unterzug unterzüge unterzuege poutre poutres"
     " viga vigas trave travi balk overhang ceiling clng decke plafond soffitto hvac ducts elec elektro"
+    " pipe pipes piping cable cables conduit conduits wiring sprinklers rohre leitungen kabel 管线 管道"
     " compass scalebar watermark logo arrow arrows pfeil pfeile flèche flèches freccia frecce flecha flechas"
     " eje ejes eixo eixos oś osie wymiar wymiary aks akslar ölçü olcu ölçüler olculer kóta kóty méretek"
     " tengely оси ось размер размеры штриховка сетка dote 轴线 轴网 标注 尺寸 图框 填充 寸法 通り芯 基準線"
@@ -140,7 +141,8 @@ HEADS = (
     *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
     *("schrank", "schränke", "schraenke", "regal", "regale", "tisch", "tische", "stuhl", "stühle", "stuehle"),
     *("bett", "betten", "träger", "traeger", "balken"),
-    *("墙", "墙体", "标注", "尺寸", "轴线", "轴网", "家具", "壁", "寸法", "通り芯", "치수", "중심선"),
+    *("墙", "墙体", "标注", "尺寸", "轴线", "轴网", "家具", "管线", "管道"),
+    *("壁", "寸法", "通り芯", "치수", "중심선"),
 )
 """What ends with one of these is of its kind: "Stahlträger" is a beam. German and others join their words."""
 
