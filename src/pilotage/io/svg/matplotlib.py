@@ -5,9 +5,7 @@ import re
 from xml.etree import ElementTree as ET
 
 from pilotage.io.svg.style import local_name
-
-LABEL = "aria-label"
-"""Where Inkscape keeps the words of a text that was turned into outlines; here those of matplotlib, too."""
+from pilotage.io.svg.tree import OUTLINED
 
 TEXT = re.compile(r"text_\d+")
 """The id of a text, which holds the outlines line by line."""
@@ -40,7 +38,7 @@ class MatplotlibReader(ET.TreeBuilder):
         """Begin an element."""
         holder, depth = self.holders[-1], len(self.holders)
         if self.said and TEXT.fullmatch(holder):
-            attrs = {LABEL: self.said, **attrs}
+            attrs = {OUTLINED: self.said, **attrs}
         elif depth == self.depth_of_chart + 1 and PATCH.fullmatch(holder) and is_straight(tag, attrs):
             attrs = {"class": "axis", **attrs}
         name = attrs.get("id", "")

@@ -14,14 +14,13 @@ from pilotage.interpretation.names import SPACES, guessed_role, holds_rooms, is_
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import is_hint, on_paper
 from pilotage.io.svg.flatten import flatten
-from pilotage.io.svg.matplotlib import LABEL
 from pilotage.io.svg.outlines import FLATNESS
 from pilotage.io.svg.reader import Shape, diagonal_of, flipped, read_content, reading_values
 from pilotage.io.svg.roles import ALWAYS, CLOSED, Thing, names_of
 from pilotage.io.svg.servers import has_area
 from pilotage.io.svg.style import is_named, leading_number, local_name
 from pilotage.io.svg.texts import read_texts
-from pilotage.io.svg.tree import DRAWN, Drawn
+from pilotage.io.svg.tree import DRAWN, OUTLINED, Drawn
 from pilotage.io.svg.winding import filled_twice
 
 INKSCAPE, SERIF = "http://www.inkscape.org/namespaces/inkscape", "http://www.serif.com/"
@@ -190,7 +189,7 @@ def texts_of_labels(found: Labeled, letters: Labeled, written: Sequence[Text]) -
         drawn = group[0].drawn
         if label in letters:
             yield Text(words, middle, bottom - top, 0.0, drawn.names, drawn.groups, f"outlines of {words!r}")
-        elif drawn.element.get(LABEL) and not any(
+        elif drawn.element.get(OUTLINED) and not any(
             left <= text.position[0] <= right and -bottom <= text.position[1] <= -top for text in written
         ):
             yield Text(words, middle, 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))

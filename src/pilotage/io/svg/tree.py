@@ -9,7 +9,6 @@ from xml.etree.ElementTree import Element
 from svgelements import Matrix, Viewbox
 
 from pilotage.interpretation import Role
-from pilotage.io.svg.matplotlib import LABEL
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.servers import REFERENCE, PaintServers
 from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name, with_variables
@@ -19,6 +18,8 @@ WORDED = ("text", "foreignObject", "flowRoot")
 DRAWN = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", *WORDED)
 HOLDING = ("svg", "g", "a", "switch")
 LIST_END = re.compile(r"[\s,]")
+OUTLINED = "aria-label"
+"""Where Inkscape keeps the words of a text that was turned into outlines; here those of matplotlib, too."""
 
 MEASURES = {
     "x": 0, "y": 1, "width": 0, "height": 1, "cx": 0, "cy": 1, "r": 2, "rx": 0, "ry": 1,
@@ -149,7 +150,7 @@ def walk(places: Sequence[Place], document: Document, effort: Effort) -> Iterato
             notes={**place.notes, **noted(element)},
             names=place.names + tuple(names_of(element)),
             groups=place.groups if tag in DRAWN else (*place.groups, count),
-            outlined=(count, element.get(LABEL, "").strip()) if element.get(LABEL) else place.outlined,
+            outlined=(count, element.get(OUTLINED, "").strip()) if element.get(OUTLINED) else place.outlined,
             clips=(*place.clips, (clip[1], page_from_user)) if clip else place.clips,
         )
         if tag in DRAWN:
