@@ -107,3 +107,13 @@ def test_a_line_with_a_tick_across_both_ends_measures_a_building_if_it_lies_besi
     span = [stroke((x, 0), (x, 80)), *(stroke((x - 1, y), (x + 1, y)) for y in (0, 80))]
 
     assert role is roles((*WITH_GAP, *span), ())[3]
+
+
+def test_the_length_of_a_dimension_line_names_no_room():
+    line, length = stroke((10, 20), (40, 20), width=0.2), Text("3200", (25, 22), height=2.0)
+
+    measured = graph_of((*WITH_GAP, line, *ticks((10, 20), (40, 20))), (*LABELS, length))
+    numbered = graph_of(WITH_GAP, (*LABELS, length))
+
+    assert {"bath", "hall"} <= {cell.label for cell in measured.cells}
+    assert {"bath, 3200", "hall"} <= {cell.label for cell in numbered.cells}

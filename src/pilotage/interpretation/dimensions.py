@@ -64,25 +64,28 @@ class Outline:
 
 def find_dimensions(
     sheet: Sheet, seen: Sequence[Seen], named: Container[int], lettering: Sequence[Text], diagonal: float
-) -> set[int]:
-    """Find the marks without a name, by number, that are dimension lines, and the signs at their ends.
+) -> tuple[set[int], set[int]]:
+    """Find the marks without a name that are dimension lines, with the signs at their ends, and their texts.
 
-    A mark may hold several: both arrowheads of a line, or the line with its ticks. `lettering` is what is
-    written in outlines: it may be a number.
+    Both by number. A mark may hold several: both arrowheads of a line, or the line with its ticks.
+    `lettering` is what is written in outlines: it may be a number.
     """
-    texts = [text for text in sheet.texts if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)]
-    texts += lettering
+    numbers = [
+        number
+        for number, text in enumerate(sheet.texts)
+        if NUMBER.fullmatch(text.text.strip()) or is_measure(text.text)
+    ]
+    texts = [*(sheet.texts[number] for number in numbers), *lettering]
     outlines = [
         outline
         for mark in seen
         if mark.number not in named
         for outline in outlines_of(mark.number, sheet.marks[mark.number])
     ]
-    found = spans_outside(outlines, diagonal) | (
-        spans_with_number(outlines, texts, diagonal) if texts else set()
-    )
-    counts = Counter(number for number, _ in found)
-    return {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
+    found, written = spans_with_number(outlines, texts, diagonal) if texts else (set(), set())
+    counts = Counter(number for number, _ in found | spans_outside(outlines, diagonal))
+    marks = {number for number, count in counts.items() if count == len(sheet.marks[number].outlines)}
+    return marks, {numbers[place] for place in written if place < len(numbers)}
 
 
 def spans_outside(outlines: Sequence[Outline], diagonal: float) -> set[tuple[int, int]]:
@@ -110,16 +113,18 @@ def spans_outside(outlines: Sequence[Outline], diagonal: float) -> set[tuple[int
 
 def spans_with_number(
     outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float
-) -> set[tuple[int, int]]:
-    """List the lines with a number beside them and a sign at each end, and these signs."""
+) -> tuple[set[tuple[int, int]], set[int]]:
+    """List the lines with a number beside them and a sign at each end, and these signs; then the numbers."""
     lines = measured_lines(outlines, texts, diagonal)
     if not lines:
-        return set()
+        return set(), set()
     tips, owners = tips_of(outlines)
     tree = shapely.STRtree(shapely.points(tips))
     heavy = max(outline.pen for outline in outlines)
     found: set[tuple[int, int]] = set()
-    for line, text in lines:
+    written: set[int] = set()
+    for line, along in lines:
+        text = texts[along[0]]
         ends = line.vertices[[0, -1]]
         most = min(SHORT * float(np.hypot(*(ends[1] - ends[0]))), SIGN * diagonal)
         which, near = tree.query(shapely.points(ends), predicate="dwithin", distance=AT * diagonal)
@@ -130,9 +135,10 @@ def spans_with_number(
         ]
         if {end for end, _ in signs} == {0, 1}:
             found |= {line.key, *(sign for _, sign in signs)}
+            written.update(along)
         elif text.text and line.pen <= THIN * heavy and is_measure(text.text) and stands_amid(text, ends):
             found.add(line.key)
-    return found
+    return found, written
 
 
 def outlines_of(number: int, mark: Mark) -> Iterator[Outline]:
@@ -143,8 +149,8 @@ def outlines_of(number: int, mark: Mark) -> Iterator[Outline]:
 
 def measured_lines(
     outlines: Sequence[Outline], texts: Sequence[Text], diagonal: float
-) -> list[tuple[Outline, Text]]:
-    """List the straight lines along which one of these numbers stands, each with the first of its numbers."""
+) -> list[tuple[Outline, list[int]]]:
+    """List the straight lines along which some of these numbers stand, each with their places."""
     lines = [one for one in outlines if one.pen > 0.0 and (one.vertices[0] != one.vertices[-1]).any()]
     if not lines:
         return []
@@ -152,11 +158,11 @@ def measured_lines(
     reach = BESIDE * max(height_of(text, diagonal) for text in texts)
     drawn = shapely.linestrings(np.array([line.vertices[[0, -1]] for line in lines]))
     beside = written.query(drawn, predicate="dwithin", distance=reach).T.tolist()
-    along: dict[int, Text] = {}
+    along: defaultdict[int, list[int]] = defaultdict(list)
     for rank, place in sorted(beside):
         if stands_along(texts[place], lines[rank].vertices[[0, -1]], diagonal):
-            along.setdefault(rank, texts[place])
-    return [(lines[rank], text) for rank, text in along.items() if is_straight(lines[rank].vertices)]
+            along[rank].append(place)
+    return [(lines[rank], places) for rank, places in along.items() if is_straight(lines[rank].vertices)]
 
 
 def tips_of(outlines: Sequence[Outline]) -> tuple[Array, NDArray[np.int64]]:

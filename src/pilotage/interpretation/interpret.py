@@ -87,12 +87,16 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     """
     texts = view.sheet.texts
     told = [told_role(text.names, layers) for text in texts]
-    parts_of_things = {
-        **dict.fromkeys(parts.written, (Role.IGNORE, "the north of a compass")),
-        **dict.fromkeys(written_upon(parts.bars, texts), (Role.IGNORE, "the name of a door or a window")),
-        **dict.fromkeys(view.written, (Role.IGNORE, "the name of the furniture around it")),
+    things = {
+        **dict.fromkeys(parts.lengths, "the length of a dimension line"),
+        **dict.fromkeys(view.written, "the name of the furniture around it"),
+        **dict.fromkeys(written_upon(parts.bars, texts), "the name of a door or a window"),
+        **dict.fromkeys(parts.written, "the north of a compass"),
     }
-    plain = [parts_of_things.get(number, role_of_words(text.text)) for number, text in enumerate(texts)]
+    plain = [
+        (Role.IGNORE, things[number]) if number in things else role_of_words(text.text)
+        for number, text in enumerate(texts)
+    ]
     own = common_names(view.sheet, view.drawn)
     of_marks = {name for mark in view.sheet.marks for name in mark.names} - own
     called = [

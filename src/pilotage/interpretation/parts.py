@@ -37,6 +37,7 @@ class Parts:
     measuring: AbstractSet[int]  # dimension lines
     signs: AbstractSet[int]  # discs, compasses and plates
     written: AbstractSet[int]  # texts of these
+    lengths: AbstractSet[int]  # texts of dimension lines
     areas: AbstractSet[int]  # outlines of rooms, along their walls
     built: Sequence[Seen]  # marks that are none of these
     doors: Sequence[Door]  # leaf and arc
@@ -56,7 +57,7 @@ def take_apart(view: View) -> Parts:
     """Find doors, signs and stairs among the visible marks, and walls in what is left."""
     sheet, ground, diagonal = view.sheet, view.paper.ground, view.diagonal
     built = view.all_but(NO_DOORS, view.visible)
-    measuring = find_dimensions(sheet, built, view.guessed, view.lettering, diagonal)
+    measuring, lengths = find_dimensions(sheet, built, view.guessed, view.lettering, diagonal)
     unnamed = [mark for mark in built if mark.number not in view.guessed]
     signs, written = find_signs(sheet, unnamed, diagonal)
     signs |= find_plates(sheet, unnamed)
@@ -95,6 +96,7 @@ def take_apart(view: View) -> Parts:
         measuring=measuring,
         signs=signs,
         written=written,
+        lengths=lengths,
         areas=areas,
         built=built,
         doors=doors,
