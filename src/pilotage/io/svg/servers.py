@@ -8,7 +8,8 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from svgelements import Color
 
-from pilotage.io.svg.style import INITIAL, Style, StyleSheet, is_named, leading_number, local_name
+from pilotage.io.svg.style import INITIAL, Style, is_named, leading_number, local_name
+from pilotage.io.svg.style_sheet import StyleSheet
 
 REFERENCE = re.compile(r"\s*url\(\s*[\"']?#([^\"')]*)[\"']?\s*\)\s*(.*)")
 GRADIENTS = ("linearGradient", "radialGradient")

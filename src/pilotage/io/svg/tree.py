@@ -11,7 +11,8 @@ from svgelements import Matrix, Viewbox
 from pilotage.interpretation import Role
 from pilotage.io.svg.roles import Thing, names_of, role_of, thing_of
 from pilotage.io.svg.servers import REFERENCE, PaintServers
-from pilotage.io.svg.style import Style, StyleSheet, is_named, local_name, with_variables
+from pilotage.io.svg.style import Style, is_named, local_name, with_variables
+from pilotage.io.svg.style_sheet import StyleSheet
 from pilotage.io.svg.viewport import UNKNOWN_PAGE, Viewport, read_page, view_box
 
 WORDED = ("text", "foreignObject", "flowRoot")
