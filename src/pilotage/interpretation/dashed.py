@@ -57,24 +57,30 @@ def dashed_among(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
 def find_axes(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> set[int]:
     """Find the marks that draw axes and sections: straight, dashed, and beyond all that they cross.
 
-    So are the lines of a grid, which need no dashes: all that is in their pen ends outside of all else.
+    So are the lines of a grid, which need no dashes.
     """
     dashed = dashed_among(sheet, seen)
+    others = [mark for mark in seen if mark.number not in dashed]
+    tree = shapely.STRtree(shapes_of(others).ravel())
+    lines = straight_among(sheet, dashed)
+    axes = {number for number, line in lines.items() if is_axis(line, tree, diagonal)}
+    return axes | find_grid(sheet, others, diagonal)
+
+
+def find_grid(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> set[int]:
+    """Find straight lines in a pen of their own that all end outside of all else, with axes among them."""
     pens: dict[Pen | None, list[int]] = defaultdict(list)
     for mark in seen:
         pens[sheet.marks[mark.number].pen].append(mark.number)
-    found = set()
+    found: set[int] = set()
     for numbers in pens.values():
         lines = straight_among(sheet, numbers)
-        may_be_grid = GRID <= len(lines) == len(numbers)
-        if dashed.isdisjoint(numbers) and not may_be_grid:
+        if not GRID <= len(lines) == len(numbers):
             continue
-        through = shapes_of([mark for mark in seen if mark.number not in dashed.union(numbers)]).ravel()
-        tree = shapely.STRtree(through)
-        axes = {number for number, line in lines.items() if is_axis(line, tree, diagonal)}
-        if not dashed.isdisjoint(numbers):
-            found |= axes
-        elif len(axes) >= GRID and are_outside(lines, through, diagonal):
+        others = shapes_of([mark for mark in seen if mark.number not in lines]).ravel()
+        tree = shapely.STRtree(others)
+        axes = sum(is_axis(line, tree, diagonal) for line in lines.values())
+        if axes >= GRID and are_outside(lines.values(), others, diagonal):
             found.update(numbers)
     return found
 
@@ -88,12 +94,10 @@ def straight_among(sheet: Sheet, numbers: Iterable[int]) -> dict[int, shapely.Li
     }
 
 
-def are_outside(
-    lines: Mapping[int, shapely.LineString], others: NDArray[np.object_], diagonal: float
-) -> bool:
+def are_outside(lines: Iterable[shapely.LineString], others: NDArray[np.object_], diagonal: float) -> bool:
     """Tell whether all lines end outside of the box around all else."""
     box = shapely.buffer(shapely.box(*shapely.total_bounds(others)), NEAR * diagonal)
-    return bool(shapely.disjoint(box, shapely.multipoints(shapely.get_coordinates(list(lines.values())))))
+    return bool(shapely.disjoint(box, shapely.multipoints(shapely.get_coordinates(list(lines)))))
 
 
 def is_axis(line: shapely.LineString, through: shapely.STRtree, diagonal: float) -> bool:

@@ -108,6 +108,11 @@ def share_within(box: Bounds, cover: Bounds) -> float:
     return max(width, 0.0) * max(height, 0.0) / area if area > 0.0 else 0.0
 
 
+def is_closed(mark: Mark) -> bool:
+    """Tell whether a mark is one closed outline, around an area."""
+    return len(mark.outlines) == 1 and mark.outlines[0].closed and len(mark.outlines[0]) > 2
+
+
 def is_box(mark: Mark) -> bool:
     """Tell whether a mark is a rectangle along the axes: it fills its bounds."""
     left, bottom, right, top = bounds_of(mark)

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from pilotage.interpretation.paint import Seen
-from pilotage.interpretation.paper import bounds_of, holds, is_box
+from pilotage.interpretation.paper import bounds_of, holds, is_box, is_closed
 from pilotage.interpretation.sheet import Sheet
 
 LINES = 3.0
@@ -18,22 +18,19 @@ def find_plates(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
 
     Several boxes in a room, of which each stands for itself, are booths.
     """
-    texts = [(*text.position, *text.position, text.height) for text in sheet.texts]
+    words = [(text.height, (*text.position, *text.position)) for text in sheet.texts]
     boxes = {}
     for mark in seen:
         drawn = sheet.marks[mark.number]
         if drawn.fill is not None and is_box(drawn):
             bounds = bounds_of(drawn)
-            heights = [text[4] for text in texts if holds(bounds, text[:4])]
+            heights = [height for height, place in words if holds(bounds, place)]
             if heights and bounds[3] - bounds[1] <= LINES * max(heights):
                 boxes[mark.number] = shapely.box(*bounds)
     rooms = [
         shapely.make_valid(shapely.Polygon(drawn.outlines[0].vertices))
         for mark in seen
-        if mark.number not in boxes
-        and len((drawn := sheet.marks[mark.number]).outlines) == 1
-        and drawn.outlines[0].closed
-        and len(drawn.outlines[0]) > 2
+        if mark.number not in boxes and is_closed(drawn := sheet.marks[mark.number])
     ]
     if not (boxes and rooms):
         return set()
@@ -41,11 +38,11 @@ def find_plates(sheet: Sheet, seen: Sequence[Seen]) -> set[int]:
     rooms.sort(key=lambda room: float(room.area))
     free = shapely.contains_properly(np.array(rooms)[:, None], shapes)
     within = np.where(free.any(axis=0), free.argmax(axis=0), -1)
-    spoken = shapely.points([text[:2] for text in texts])
+    written = shapely.points([text.position for text in sheet.texts])
     found: set[int] = set()
     for place in np.unique(within[within >= 0]).tolist():
         own = shapely.union_all(shapes[within == place])
-        words = spoken[shapely.contains(rooms[place], spoken)]
-        if own.geom_type == "Polygon" and shapely.covers(own, words).all():
+        inside = written[shapely.contains(rooms[place], written)]
+        if own.geom_type == "Polygon" and shapely.covers(own, inside).all():
             found |= set(numbers[within == place].tolist())
     return found

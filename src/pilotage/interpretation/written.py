@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 
 from pilotage.interpretation.names import CALLED, PLACES, meaning_of, name_words, thing_called
-from pilotage.interpretation.sheet import Mark, Role, Sheet
+from pilotage.interpretation.paper import is_closed
+from pilotage.interpretation.sheet import Role, Sheet
 from pilotage.interpretation.words import GLYPH_WIDTH
 
 FILLING = 0.25
@@ -55,8 +56,3 @@ def names_thing(words: str) -> bool:
     """
     *_, head = name_words(thing_called(words)) or [""]
     return meaning_of(head) is Role.FURNITURE and head not in CALLED - {"bed"} | PLACES | CLOSETS
-
-
-def is_closed(mark: Mark) -> bool:
-    """Tell whether a mark is one closed outline."""
-    return len(mark.outlines) == 1 and mark.outlines[0].closed and len(mark.outlines[0]) > 2
