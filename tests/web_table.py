@@ -2,15 +2,12 @@
 
 import asyncio
 import json
-import tomllib
 from collections.abc import Callable, Coroutine
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any, TypeVar
 
 from starlette.testclient import WebSocketTestSession
-
-from pilotage.config import settings_from
 
 Result = TypeVar("Result")
 
@@ -26,17 +23,6 @@ FLAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120" fill="no
 <circle class="goal" cx="30" cy="30" r="2"/></svg>
 """
 """Four rooms with doors."""
-
-FEW_AS_TOML = """[localizer]
-proposals = 3000
-[localizer.tracks]
-first_count = 30000
-max_count = 7500
-min_count = 1000
-count_per_area = 250
-"""
-"""Settings of robots that take a quarter of the time."""
-FEW = settings_from(tomllib.loads(FEW_AS_TOML))
 
 CONTENT = {"media": "image/svg+xml", "text": FLAT}
 

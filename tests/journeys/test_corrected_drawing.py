@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from few_particles import FEW_AS_TOML
 from pilotage import worlds
 from pilotage.correction import append_sighting, correct_drawing
 from pilotage.evaluation.walls import TrueWalls
@@ -17,19 +18,12 @@ from shared_data import LOGS, SKETCHES, needs_logs
 
 OFFICE = worlds.OFFICE.folder
 FEW = reduced(LocalizerSettings(), 1 / 8)
-FEW_TOML = """[localizer]
-proposals = 4000
-[localizer.tracks]
-first_count = 40000
-max_count = 8000
-min_count = 2000
-"""
 
 
 @pytest.mark.slow
 def test_the_packed_log_corrects_the_packed_sketch(pilotage, tmp_path):
     out, settings = tmp_path / "corrected.svg", tmp_path / "few.toml"
-    settings.write_text(FEW_TOML)
+    settings.write_text(FEW_AS_TOML)
     words = ("-o", tmp_path / "out.jsonl", "--corrected", out, "--settings", settings, "--explain")
 
     outcome = pilotage("localize", OFFICE / "quick.svg", worlds.LOG, *words)

@@ -6,19 +6,18 @@ import math
 import numpy as np
 import pytest
 
-from pilotage import LocalizerSettings, worlds
+from few_particles import FEW
+from pilotage import worlds
 from pilotage.evaluation.episodes import continued, follow, score, spread_episodes, way_along
 from pilotage.evaluation.rooms import read_drawn_rooms, read_world_rooms
 from pilotage.evaluation.trajectory import associate
 from pilotage.io import open_log, open_map
 from pilotage.io.tum import read_trajectory
-from pilotage.localization import Localizer, Status, TrackSettings
+from pilotage.localization import Localizer, Status
 from pilotage.maps import AtlasSettings, build_atlas
 from shared_data import LOGS, SKETCHES, needs_logs
 
-QUICK = LocalizerSettings(
-    tracks=TrackSettings(first_count=40_000, max_count=8_000, min_count=2_000), proposals=4_000
-)
+QUICK = FEW.localizer
 
 
 def right_at_end(building, hand, count, length, apart):

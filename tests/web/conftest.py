@@ -12,11 +12,12 @@ pytest.importorskip("starlette")
 
 from starlette.testclient import TestClient
 
+from few_particles import FEW, FEW_AS_TOML
 from pilotage.web.app import build_app
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
 from pilotage.web.table import Table
-from web_table import FEW, FEW_AS_TOML, TOKEN
+from web_table import TOKEN
 
 
 @pytest.fixture
