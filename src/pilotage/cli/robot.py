@@ -129,11 +129,15 @@ def check_names(namespace: str, scan_topic: str, odometry_topic: str, command_to
 
 def chosen_settings(path: Path | None, limits: Limits, length: float = 0.0) -> "Settings":
     """Read settings; size and limits of the command line override theirs."""
-    from dataclasses import replace
-
     from pilotage.config import Settings, read_settings
 
-    settings = Settings() if path is None else read_settings(path)
+    return limited(Settings() if path is None else read_settings(path), limits, length)
+
+
+def limited(settings: "Settings", limits: Limits, length: float) -> "Settings":
+    """Put size and limits of the command line in place of those of settings."""
+    from dataclasses import replace
+
     names = {"--speed": "speed", "--turn-rate": "turn_rate", "--braking": "braking"}
     steering = {names[option]: value for option, value in limits.items() if option in names and value}
     navigator = replace(settings.navigator, steering=replace(settings.navigator.steering, **steering))

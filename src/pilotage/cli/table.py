@@ -24,7 +24,7 @@ from pilotage.cli.robot import (
     TurnRate,
     check_limits,
     check_names,
-    chosen_settings,
+    limited,
     limits_of,
 )
 from pilotage.cli.terminal import say
@@ -32,6 +32,7 @@ from pilotage.errors import PilotageError
 from pilotage.ros.link import Link, Topics, Transport
 
 if TYPE_CHECKING:
+    from pilotage.config import Settings
     from pilotage.web.order import RobotOrder
 
 NEEDED = ("starlette", "uvicorn", "websockets")
@@ -121,7 +122,7 @@ def table(
     if ros2:
         topics = Topics(scan_topic, odometry_topic, command_topic, stamped=stamped, drives=drive)
         link = Link(domain, namespace, transport)
-        robot = robot_order(link, topics, settings, limits, length)
+        robot = robot_order(link, topics, chosen, limits, length)
     serve(folder, Address(host, port, token), browse=browser, say=say, robot=robot, settings=chosen)
 
 
@@ -134,9 +135,10 @@ def check_unused(context: typer.Context) -> None:
 
 
 def robot_order(
-    link: Link, topics: Topics, settings: Path | None, limits: Limits, length: float
+    link: Link, topics: Topics, settings: "Settings | None", limits: Limits, length: float
 ) -> "RobotOrder":
     """Describe the robot to the workers of the table; PilotageError if its messages cannot be carried."""
+    from pilotage.config import Settings
     from pilotage.web.order import RobotOrder
 
     module, extra = CARRIERS[link.transport]
@@ -144,4 +146,4 @@ def robot_order(
         raise PilotageError(f"a live robot needs the extra {extra}: pip install 'pilotage[{extra}]'")
     how = "a person at the page may let it drive" if topics.drives else "no commands are sent"
     say(f"The robot on domain {link.domain} is offered as a world; {how}")
-    return RobotOrder(link, topics, chosen_settings(settings, limits, length))
+    return RobotOrder(link, topics, limited(settings or Settings(), limits, length))

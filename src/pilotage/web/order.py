@@ -75,9 +75,7 @@ class Order:
     seed: int = 0
     speed: float = 1.0
     paused: bool = False
-    settings: "Settings | None" = (
-        None  # for all but a robot on the network, which has its own; None: defaults
-    )
+    settings: "Settings | None" = None  # None for the defaults; a robot on the network has its own
 
 
 def number(

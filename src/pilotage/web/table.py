@@ -21,9 +21,7 @@ class Table:
 
     folder: Folder
     robot: RobotOrder | None = None  # on the network, if there is one
-    settings: "Settings | None" = (
-        None  # of all other robots, and how drawings are divided; None for the defaults
-    )
+    settings: "Settings | None" = None  # of all other robots, and of drawings; None for the defaults
     jobs: Jobs = field(default_factory=Jobs)
     sessions: Sessions = field(default_factory=Sessions)
     recordings: Recordings = field(init=False)
