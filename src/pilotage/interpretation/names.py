@@ -99,43 +99,20 @@ SPACES = frozenset(("room", "rooms", "raum", "räume", "zimmer", "pièce", "sall
 ROOMS = frozenset(("rooms", "räume", "zimmer", "pièces", "salles", "stanze", "salas", "kamers"))
 """A group that is called so holds rooms."""
 
-CALLED = frozenset(
-    (
-        "bed",
-        "cabinet",
-        "lavabo",
-        "lavabos",
-        "sanitaires",
-        "sanitarios",
-        "sanitär",
-        "shower",
-        "toilet",
-        "toilets",
-    )
-)
-"""By these things rooms are called, too: what is classed a room, or stands among rooms, is none of them."""
-
 MEANING = {word: role for role, spoken in VOCABULARY.items() for word in spoken.split()}
 
 THINGS = (Role.DOOR, Role.WINDOW, Role.FURNITURE)
 PLACES = frozenset(
     (
-        "toilet",
-        "toilets",
-        "shower",
-        "equipment",
-        "equip",
-        "plumbing",
-        "fittings",
-        "sanitary",
-        "plants",
-        "people",
+        *("toilet", "toilets", "shower", "lavabo", "lavabos"),
+        *("sanitary", "sanitär", "sanitaires", "sanitarios"),
+        *("equipment", "equip", "plumbing", "fittings", "plants", "people"),
     )
 )
 """Rooms are called by these words for what stands in them."""
 
-BEDS = frozenset(("bed", "beds"))
-"""With a number they are bedrooms."""
+NUMBERED = frozenset(("bed", "beds", "cabinet"))
+"""With a number, or among rooms, these are rooms, too: bedrooms, and doctors' rooms."""
 
 HEADS = (
     *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
@@ -212,7 +189,8 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
         among_rooms = is_room(below[-1:]) if below else holds_rooms(above)
         for word, following in pairwise([*words, ""]):
             role = meaning_of(word)
-            if role is Role.FURNITURE and (following in SPACES or (among_rooms and word in CALLED)):
+            is_place = following in SPACES or (among_rooms and word in PLACES | NUMBERED)
+            if role is Role.FURNITURE and is_place:
                 continue
             if role is not None and not (of_room and word in EDGES):
                 return role, f"its name is {name!r}"
@@ -258,7 +236,7 @@ def thing_called(label: str) -> str:
     ['Coffee table', 'Door 2', '', '', '']
     """
     *_, head = name_words(re.sub(r"\(.*?\)", " ", label)) or [""]
-    is_room = head in PLACES or (head in BEDS and any(map(str.isdecimal, label)))
+    is_room = head in PLACES or (head in NUMBERED and any(map(str.isdecimal, label)))
     return label if meaning_of(head) in THINGS and not is_room else ""
 
 

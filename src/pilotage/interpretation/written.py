@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
-from pilotage.interpretation.names import CALLED, PLACES, meaning_of, name_words, thing_called
+from pilotage.interpretation.names import meaning_of, name_words, thing_called
 from pilotage.interpretation.paper import is_closed
 from pilotage.interpretation.sheet import Role, Sheet
 from pilotage.interpretation.words import GLYPH_WIDTH
@@ -55,4 +55,4 @@ def names_thing(words: str) -> bool:
     [True, True, False, False, False, False]
     """
     *_, head = name_words(thing_called(words)) or [""]
-    return meaning_of(head) is Role.FURNITURE and head not in CALLED - {"bed"} | PLACES | CLOSETS
+    return meaning_of(head) is Role.FURNITURE and head not in CLOSETS
