@@ -211,6 +211,13 @@ export function App() {
     saveFile(`${stem(save.document.name || save.document.base)}.${kind}`, new Blob([text], { type: kind === "svg" ? SVG : "application/json" }));
   };
 
+  const keepCopy = () => save.adopt({ ...save.document, name: "", tag: null }, null);
+  const showOther = () => {
+    const { name } = save.document;
+    keepCopy();
+    guarded(() => openNamed(name));
+  };
+
   const names = [...new Set((told?.cells ?? []).map((cell) => cell.name).filter(Boolean))].sort();
   const bottomLine = hovered ? describeCell(hovered, told, scale) : (TOOLS.find((one) => one.tool === tool)?.hint ?? STYLE_HINT[style] ?? "");
 
@@ -295,8 +302,8 @@ export function App() {
       {save.state === "conflict" && (
         <Dialog title="This drawing was changed elsewhere">
           <p>{save.document.name} was saved by another tab or program since you opened it. Neither version is lost.</p>
-          <button className="primary" onClick={() => save.adopt({ ...save.document, name: "", tag: null }, null)}>Keep mine as a copy</button>
-          <button onClick={() => openNamed(save.document.name).catch((problem: unknown) => tell(String(problem)))}>Show the other version</button>
+          <button className="primary" onClick={keepCopy}>Keep mine as a copy</button>
+          <button onClick={showOther}>Keep mine as a copy, and show the other version</button>
         </Dialog>
       )}
       {notice && <div className="notice" role="alert">{notice} <button aria-label="Close this notice" onClick={() => setNotice("")}>x</button></div>}

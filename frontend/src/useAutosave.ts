@@ -18,7 +18,8 @@ export interface Autosave {
   document: Document;
   state: SaveState;
   error: string;
-  saveNow: () => Promise<void>;
+  /** Save what is not saved yet; tells whether all is. */
+  saveNow: () => Promise<boolean>;
   /** Go on with another document; `saved` is its content as the server has it, null to save it at once. */
   adopt: (document: Document, saved: string | null) => void;
 }
@@ -29,29 +30,34 @@ export function useAutosave(content: () => string, revision: number): Autosave {
   const [error, setError] = useState("");
   const [attempt, setAttempt] = useState(0);
   const now = useRef({ document, saved: "", changedAt: 0 });
-  const turn = useRef<Promise<void>>(Promise.resolve());
+  const turn = useRef<Promise<boolean>>(Promise.resolve(true));
 
   const saveNow = useCallback(() => {
     turn.current = turn.current.then(async () => {
       const { document } = now.current;
       const text = content();
       now.current.changedAt = 0;
-      if (text === now.current.saved) return setState((before) => (before === "conflict" ? before : "saved"));
+      if (text === now.current.saved) {
+        setState((before) => (before === "conflict" ? before : "saved"));
+        return true;
+      }
       setState("saving");
       try {
         const name = document.name || (await freeName(document.base));
         const tag = await saveDrawing(name, text, document.tag);
-        if (now.current.document !== document) return;
+        if (now.current.document !== document) return true;
         now.current.saved = text;
         now.current.document = { ...document, name, tag };
         setDocument(now.current.document);
         setError("");
         setState(now.current.changedAt ? "saving" : "saved"); // a change may have come meanwhile
+        return true;
       } catch (problem) {
         setError(problem instanceof Error ? problem.message : String(problem));
         const refused = problem instanceof ApiError && (problem.status === 409 || problem.status === 412);
         setState(refused ? "conflict" : "failed");
         if (!refused) setTimeout(() => setAttempt((before) => before + 1), RETRY_MS);
+        return false;
       }
     });
     return turn.current;

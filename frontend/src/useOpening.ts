@@ -46,7 +46,10 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
   }, [save, show, tell, whole]);
 
   const guarded = useCallback((action: () => Promise<void>) => {
-    save.saveNow().then(action).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
+    save.saveNow().then((isSaved) => {
+      if (!isSaved) throw new Error("this drawing cannot be saved just now, so nothing else is opened");
+      return action();
+    }).catch((problem: unknown) => tell(problem instanceof Error ? problem.message : String(problem)));
   }, [save, tell]);
 
   const opening: Opening = {

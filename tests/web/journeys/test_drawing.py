@@ -177,5 +177,21 @@ def test_two_tabs_do_not_lose_each_others_work(sheet: Sheet, folder: Path) -> No
     question = other.page.get_by_role("dialog", name="This drawing was changed elsewhere")
     expect(question).to_be_visible(timeout=PATIENCE_MS)
     other.shot("conflict")
-    question.get_by_role("button", name="Keep mine as a copy").click()
+    question.get_by_role("button", name="Keep mine as a copy", exact=True).click()
     assert name != saved(other, folder).name
+
+
+def test_who_asks_for_the_other_version_keeps_the_own_one(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    path = saved(sheet, folder)
+    path.write_text(path.read_text().replace("</svg>", "<!-- by another program --></svg>"))
+    before = set(folder.iterdir())
+    sheet.box(600, 150, 900, 450)
+    question = sheet.page.get_by_role("dialog", name="This drawing was changed elsewhere")
+    question.get_by_role("button", name="show the other version").click(timeout=PATIENCE_MS)
+
+    expect(sheet.summary).to_contain_text("1 cell,", timeout=PATIENCE_MS)
+    (mine,) = set(folder.iterdir()) - before
+    assert len(pilotage.open_map(mine).strokes) > 1
+    assert "by another program" in path.read_text()
