@@ -22,6 +22,7 @@ import { ToolLayer, TOOLS, type Tool } from "./Tools";
 import type { Cell, Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive, type Order } from "./useDrive";
+import { useEditorKeys } from "./useEditorKeys";
 import { useOpening } from "./useOpening";
 import { remark, useUnderstanding } from "./useUnderstanding";
 
@@ -46,6 +47,7 @@ export function App() {
   const [welcome, setWelcome] = useState(!location.hash.includes("drawing="));
   const [notice, setNotice] = useState("");
   const version = useRef(0);
+  const layDown = useRef(() => {});
   const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
   const { drive, begin, resume, send, leave } = useDrive();
 
@@ -55,6 +57,7 @@ export function App() {
   const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
   const save = useAutosave(whole, revision);
   const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
+  useEditorKeys(!drive);
   const { told, error } = useUnderstanding(plain, save.document.name, revision, routeEnds);
 
   const tell = useCallback((text: string) => setNotice(text), []);
@@ -73,8 +76,12 @@ export function App() {
     if (editor && (save.document.name || session)) history.replaceState(null, "", `#${hash}`);
   }, [editor, save.document.name, session, driving]);
 
-  const changed = useCallback((all: readonly Element[], state: Pick<AppState, "scrollX" | "scrollY" | "zoom">) => {
-    const { scrollX, scrollY, zoom } = state;
+  const editorTool = useRef("selection");
+  const changed = useCallback((all: readonly Element[], state: Pick<AppState, "scrollX" | "scrollY" | "zoom" | "activeTool">) => {
+    const { scrollX, scrollY, zoom, activeTool } = state;
+    const isTaken = activeTool.type !== editorTool.current && activeTool.type !== "selection";
+    editorTool.current = activeTool.type;
+    if (isTaken) layDown.current();
     setView((before) => (before.scrollX === scrollX && before.scrollY === scrollY && before.zoom === zoom.value ? before : { scrollX, scrollY, zoom: zoom.value }));
     const sum = all.reduce((total, one) => (total * 31 + one.versionNonce + (one.isDeleted ? 1 : 0)) % 9007199254, all.length);
     if (sum === version.current) return;
@@ -168,15 +175,23 @@ export function App() {
     if (next !== "route") setEnds([]);
     if (next !== "none") editor?.setActiveTool({ type: "selection" });
   };
+  // Who takes a tool of the editor lays down the table's own, and wants to draw.
+  layDown.current = () => {
+    choose("none");
+    setWelcome(false);
+  };
 
   // A zone is only drawn: what is selected may just be the last wall. Other styles change what is selected, too.
   const setPen = (next: Style) => {
     setStyle(next);
+    choose("none");
     const pen = PEN[next];
-    const selected = pen ? {} : (editor?.getAppState().selectedElementIds ?? {});
+    const { selectedElementIds, activeTool } = editor?.getAppState() ?? {};
+    const selected = pen ? {} : (selectedElementIds ?? {});
     const all = elements().map((one) => (selected[one.id] && STYLES.some((style) => style === roleOf(one)) ? recolored(one, next) : one));
     editor?.updateScene({ elements: all, appState: { currentItemStrokeColor: COLOR[next] }, captureUpdate: CaptureUpdateAction.IMMEDIATELY });
     if (pen) editor?.setActiveTool({ type: pen, locked: true });
+    else if (activeTool?.type === "selection" && Object.keys(selected).length === 0) editor?.setActiveTool({ type: "freedraw" });
   };
 
   const mend = (one: Mend) => put(one.kind === "cut" ? cutDoor(elements(), one.segment) : closeGap(elements(), one.segment));
@@ -254,6 +269,7 @@ export function App() {
             if (tool === "none") hover(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
           }}
           onPointerLeave={() => hover(null)}
+          onClick={(event) => (event.target as HTMLElement).closest('[data-testid="toolbar-selection"]') && choose("none")}
         >
           <Excalidraw
             excalidrawAPI={setEditor}

@@ -70,7 +70,6 @@ export function ToolLayer({ tool, view, preview, use, hover, leave }: Props) {
     const step = event.shiftKey ? 5 * STEP_PX : STEP_PX;
     const moved: Record<string, Point> = { ArrowLeft: [x - step, y], ArrowRight: [x + step, y], ArrowUp: [x, y - step], ArrowDown: [x, y + step] };
     const next = moved[event.key];
-    event.stopPropagation();
     if (next) {
       event.preventDefault();
       setCross(next);

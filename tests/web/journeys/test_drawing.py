@@ -80,6 +80,52 @@ def test_a_door_is_moved_and_widened_by_dragging_it(sheet: Sheet) -> None:
     assert sum(ends) / 2 == pytest.approx(middle, abs=5)
 
 
+def test_a_tool_of_the_editor_lays_down_the_door_tool(sheet: Sheet) -> None:
+    page = sheet.page
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    expect(sheet.summary).to_contain_text("1 cell,", timeout=PATIENCE_MS)
+    sheet.tool("Door")
+    page.locator("label[title^=Rectangle]").click()
+    sheet.drag((600, 150), (900, 450))
+
+    expect(sheet.summary).to_contain_text("2 cells,", timeout=PATIENCE_MS)
+    door = page.get_by_role("button", name="Door")
+    expect(door).to_have_attribute("aria-pressed", "false")
+    sheet.tool("Door")
+    page.locator("label[title^=Selection]").click()
+    expect(door).to_have_attribute("aria-pressed", "false")
+
+
+def test_a_door_is_undone_while_the_door_tool_is_held_and_letters_choose_other_tools(sheet: Sheet) -> None:
+    page = sheet.page
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    sheet.box(600, 150, 900, 450)
+    sheet.tool("Door")
+    page.mouse.click(600, 300)
+    expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
+    page.keyboard.press("Control+z")
+
+    expect(sheet.summary).to_contain_text("2 cells, 0 openings", timeout=PATIENCE_MS)
+    page.keyboard.press("r")
+    sheet.drag((300, 450), (600, 600))
+    expect(sheet.summary).to_contain_text("3 cells,", timeout=PATIENCE_MS)
+
+
+def test_who_chooses_a_style_can_draw_at_once(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    sheet.page.mouse.click(700, 600)
+    expect(sheet.summary).to_contain_text("1 cell,", timeout=PATIENCE_MS)
+    sheet.tool("Door")
+    sheet.tool("furniture")
+    sheet.drag((350, 250), (450, 300))
+
+    assert 'class="furniture"' in saved(sheet, folder).read_text()
+    expect(sheet.summary).to_contain_text("1 cell,")
+
+
 def test_zones_are_drawn_and_shown_as_they_are_understood(sheet: Sheet, folder: Path) -> None:
     page = sheet.page
     sheet.draw_flat()
