@@ -49,7 +49,7 @@ export function App() {
   const version = useRef(0);
   const layDown = useRef(() => {});
   const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
-  const { drive, begin, resume, send, leave } = useDrive();
+  const { drive, begin, resume, restart, send, leave } = useDrive();
 
   const elements = useCallback(() => (editor?.getSceneElements() ?? []) as readonly Element[], [editor]);
   const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
@@ -213,6 +213,12 @@ export function App() {
     begin(source ? { ...order, content: undefined, drawing: undefined, ...source } : order);
   };
 
+  const again = () => {
+    if (!drive?.session) return go();
+    setFate("none");
+    restart(drive.session.session, drive.speed);
+  };
+
   // A journal is in the units of the file that is open, or of the sheet if it was driven at the table.
   const refused = drive?.fatal === true && !drive.session;
   useEffect(() => {
@@ -298,7 +304,7 @@ export function App() {
       </main>
 
       {drive?.session?.kind === "robot" && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
-      {drive && drive.session?.kind !== "robot" && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={go} leave={leave} />}
+      {drive && drive.session?.kind !== "robot" && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={again} leave={leave} />}
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}

@@ -36,6 +36,8 @@ export function useDrive(): {
   drive: Drive | null;
   begin: (order: Order) => void;
   resume: (session: string) => void;
+  /** The same drive from its beginning, by what was ordered then. */
+  restart: (session: string, speed: number) => void;
   send: (order: Order) => void;
   leave: () => void;
 } {
@@ -88,16 +90,22 @@ export function useDrive(): {
   const send = useCallback((order: Order) => {
     if (socket.current) say(socket.current, order);
   }, []);
+  // A drive that is left for good ends, unless somebody else watches it; one that is reloaded goes on.
   const leave = useCallback(() => {
     session.current = "";
     const line = socket.current;
     socket.current = null;
+    if (line) say(line, { type: "leave" });
     line?.close();
     setDrive(null);
   }, []);
+  const restart = useCallback((id: string, speed: number) => {
+    send({ type: "leave" });
+    begin({ type: "restart", session: id, speed });
+  }, [begin, send]);
 
   useEffect(() => () => socket.current?.close(), []);
-  return { drive, begin, resume, send, leave };
+  return { drive, begin, resume, restart, send, leave };
 }
 
 /** A drive after one more message of the server; unknown ones change nothing. */

@@ -150,9 +150,31 @@ def test_what_cannot_be_done_is_said_and_the_drive_goes_on(client: TestClient) -
         assert "stopped" == talk.hear("done")["outcome"]
 
 
+@pytest.mark.slow
+def test_a_drive_is_begun_again_as_it_was_ordered_and_ends_when_it_is_left(client: TestClient) -> None:
+    with talking(client) as talk, talking(client) as again:
+        first, world = talk.start(speed=1), talk.hear("world")
+        talk.say("leave")
+        assert "stopped" == talk.hear("done")["outcome"]
+        again.say("restart", session=first["session"], speed=5)
+        second = again.hear("session")
+
+        assert first["session"] != second["session"]
+        assert ("store", 5) == (second["goal"], second["speed"])
+        assert world == again.hear("world")
+        with talking(client) as other:
+            other.say("resume", session=second["session"])
+            other.hear("session")
+            again.say("leave")
+            again.say("pause", paused=True)  # heard after it
+            other.hear_until("state", lambda state: state["paused"])
+    assert [True, False] == [one["over"] for one in client.get("/api/sessions").json()["sessions"]]
+
+
 @pytest.mark.parametrize(
     ("first", "words"),
     [
+        ({"type": "restart", "session": "gone"}, "no longer there"),
         ({"type": "pause"}, "start or resume"),
         ({"type": "resume", "session": "gone"}, "no longer there"),
         ({"type": "resume"}, "session must be a text"),

@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import json
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -71,14 +72,17 @@ async def first_message(websocket: WebSocket) -> Session | None:
 
 
 async def find_session(message: Message, table: Table) -> Session:
-    """Start a drive or go back to one; OrderError, WorkerError or what `read_order` raises if it cannot."""
+    """Start a drive, also by an old order, or go back to one; raises what `read_order` and `begin` do."""
     if message.get("type") == "start":
         return await table.sessions.begin(read_order(message, table))
-    if message.get("type") != "resume":
-        raise OrderError("the first message must be start or resume")
+    if message.get("type") not in ("resume", "restart"):
+        raise OrderError("the first message must be start or resume, or restart")
     session = table.sessions.get(orders.text(message, "session"))
     if session is None:
         raise OrderError("this drive is no longer there")
+    if message["type"] == "restart":
+        speed = orders.number(message, "speed", *orders.SPEEDS, otherwise=session.order.speed)
+        return await table.sessions.begin(replace(session.order, speed=speed))
     session.resume()
     return session
 
@@ -113,6 +117,8 @@ async def obey(message: Message, session: Session, client: Client) -> None:
             client.put("error", error_text(OrderError(refusal)))
         else:
             await asyncio.to_thread(session.tell, message)
+    elif kind == "leave":
+        await asyncio.to_thread(session.stop_unless_watched, client)
     elif kind == "seen":
         client.saw()
     elif kind == "scrub":

@@ -76,9 +76,10 @@ class Client:
 class Session:
     """A drive: passes on what its worker says, and remembers enough for who comes later."""
 
-    def __init__(self, title: str, worker: Worker) -> None:
+    def __init__(self, order: Order, worker: Worker) -> None:
         self.number = secrets.token_urlsafe(9)
-        self.title = title
+        self.order = order
+        self.title = order.title
         self.history = History()
         self.clients: set[Client] = set()
         self.t = 0.0  # [s] of the drive, of what was said last
@@ -123,6 +124,11 @@ class Session:
         """Let a client go."""
         self.clients.discard(client)
         self.watched_at = time.monotonic()
+
+    def stop_unless_watched(self, client: Client) -> None:
+        """Stop a drive that nobody but this client watches; its record stays."""
+        if not self.clients - {client}:
+            self.tell({"type": "stop"})
 
     def scrub(self, client: Client, t: float | None) -> None:
         """Show a client a moment of the past, or what is now."""
@@ -247,7 +253,7 @@ class Sessions:
         if sum(not one.over for one in self._sessions.values()) >= MOST_GOING:
             raise WorkerError(f"{MOST_GOING} drives go on already, stop one first")
         self._forget_oldest()
-        session = kind(order.title, await asyncio.to_thread(start, drive, order))
+        session = kind(order, await asyncio.to_thread(start, drive, order))
         self._sessions[session.number] = session
         return session
 

@@ -129,6 +129,24 @@ def test_a_door_closed_in_mid_drive_leads_to_a_detour_and_a_reload_goes_on(sheet
     expect(sheet.summary).to_contain_text("2 cells, 2 openings", timeout=PATIENCE_MS)
 
 
+def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet) -> None:
+    page = sheet.page
+    sheet.draw_flat()
+    page.get_by_role("button", name="Drive", exact=True).click()
+    page.get_by_label("Seed").fill("7")
+    page.get_by_role("combobox", name="Goal").select_option("bath")
+    sheet.drive(speed=1, severity=0.9)
+    doors = in_the_world(sheet, "doors")
+    page.reload()
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
+    before = page.url
+    page.get_by_role("button", name="Restart").click()
+    expect(page).not_to_have_url(before, timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
+
+    assert doors == in_the_world(sheet, "doors")
+
+
 def test_a_drive_is_ordered_paused_and_interfered_with_by_keyboard_alone(sheet: Sheet) -> None:
     page = sheet.page
     tab_to(page.get_by_role("button", name="office, careful"))
