@@ -2,7 +2,7 @@
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
 import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { sendRecording, SVG } from "./api";
+import { isAmong, listDrawings, sendRecording, SVG } from "./api";
 import { cellAt, describeCell } from "./cells";
 import { Dialog, MeasureDialog } from "./Dialog";
 import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
@@ -13,13 +13,13 @@ import { AT_FIRST, OFFERED } from "./editor";
 import type { Fate } from "./fate";
 import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
-import { saveFile, stem } from "./disk";
+import { canBeName, saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
 import { COLOR, goalOf, newGoal, newMeasure, newStart, PEN, recolored, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Toolbar } from "./Toolbar";
 import { ToolLayer, TOOLS, type Tool } from "./Tools";
-import type { Cell, Mend, Point } from "./types";
+import type { Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive, type Order } from "./useDrive";
 import { useEditorKeys } from "./useEditorKeys";
@@ -36,7 +36,7 @@ export function App() {
   const [view, setView] = useState<View>({ scrollX: 0, scrollY: 0, zoom: 1 });
   const [tool, setTool] = useState<Tool>("none");
   const [style, setStyle] = useState<Style>("wall");
-  const [hovered, setHovered] = useState<Cell | undefined>();
+  const [pointed, setPointed] = useState<Point | null>(null);
   const [preview, setPreview] = useState<Point[]>([]);
   const [ends, setEnds] = useState<Point[]>([]);
   const [measuring, setMeasuring] = useState<Gap | null>(null);
@@ -102,7 +102,7 @@ export function App() {
     editor.history.clear();
     if (shown.elements.length) editor.scrollToContent(undefined, { fitToContent: true });
     setEnds([]);
-    setHovered(undefined);
+    setPointed(null);
     setGoalName("");
   }, [editor]);
 
@@ -122,7 +122,7 @@ export function App() {
     setPen("wall");
     editor?.setActiveTool({ type: "freedraw" });
   };
-  const { opening, openNamed, guarded, origin } = useOpening({ save, whole, show, tell, watch, begin: beginDrawing });
+  const { opening, openNamed, guarded, origin } = useOpening({ save, whole, show, tell, watch, leave, begin: beginDrawing });
 
   // Once, when the editor is ready: go on with what the address names.
   const began = useRef(false);
@@ -168,7 +168,8 @@ export function App() {
     }
   };
 
-  const hover = useCallback((at: Point | null) => setHovered(at ? cellAt(told, at) : undefined), [told]);
+  const hover = setPointed;
+  const hovered = useMemo(() => (pointed ? cellAt(told, pointed) : undefined), [told, pointed]);
   const choose = (next: Tool) => {
     setTool(next);
     setPreview([]);
@@ -232,6 +233,13 @@ export function App() {
     saveFile(`${stem(save.document.name || save.document.base)}.${kind}`, new Blob([text], { type: kind === "svg" ? SVG : "application/json" }));
   };
 
+  const rename = (name: string) => {
+    if (!canBeName(name)) return tell(`a drawing cannot be called ${name}`);
+    listDrawings().then(
+      (all) => (isAmong(all, name) ? tell(`there is a drawing ${name} already: choose another name`) : save.adopt({ name, base: stem(name), tag: null }, null)),
+      (problem: unknown) => tell(String(problem)),
+    );
+  };
   const keepCopy = () => save.adopt({ ...save.document, name: "", tag: null }, null);
   const showOther = () => {
     const { name } = save.document;
@@ -257,7 +265,7 @@ export function App() {
       <header>
         <h1>pilotage</h1>
         <FileMenu opening={opening} download={download} />
-        <NameField name={save.document.name} rename={(name) => save.adopt({ name, base: stem(name), tag: null }, null)} />
+        <NameField name={save.document.name} rename={rename} />
         <span className={`save-state ${save.state}`} data-testid="save-state" title={save.error}>
           {save.document.name || save.state !== "saved" ? { saved: "saved", saving: "saving ...", conflict: "changed elsewhere", failed: "not saved" }[save.state] : ""}
         </span>

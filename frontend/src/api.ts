@@ -38,6 +38,9 @@ export async function listDrawings(): Promise<Listed[]> {
   return (await (await ask("/api/drawings")).json()).drawings;
 }
 
+/** Whether a name is taken; some disks do not tell large letters from small ones. */
+export const isAmong = (listed: Listed[], name: string) => listed.some((one) => one.name.toLowerCase() === name.toLowerCase());
+
 export async function listExamples(): Promise<Listed[]> {
   return (await (await ask("/api/examples")).json()).examples;
 }

@@ -16,10 +16,11 @@ interface Sheet {
   show: (scene: Scene) => void;
   tell: (text: string) => void;
   watch: (file: File) => void;
+  leave: () => void; // the drive that is shown in place of the sheet
   begin: () => void; // drawing on an empty sheet
 }
 
-export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
+export function useOpening({ save, whole, show, tell, watch, leave, begin }: Sheet): {
   opening: Opening;
   openNamed: (name: string) => Promise<void>;
   guarded: (action: () => Promise<void>) => void;
@@ -30,11 +31,12 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
 
   const openBlob = useCallback(async (name: string, content: Blob, title: string, origin?: Origin) => {
     const opened = await openContent(name, content);
+    leave();
     show(opened);
     from.current = opened.svg === null ? null : (origin ?? { content: { media: SVG, text: opened.svg } });
     save.adopt({ name: "", base: stem(title), tag: null }, whole());
     if (opened.notes.length) tell(opened.notes.join("; "));
-  }, [save, show, tell, whole]);
+  }, [save, show, tell, leave, whole]);
 
   const openNamed = useCallback(async (name: string) => {
     const { text, tag } = await loadDrawing(name);
@@ -53,10 +55,14 @@ export function useOpening({ save, whole, show, tell, watch, begin }: Sheet): {
   }, [save, tell]);
 
   const opening: Opening = {
-    openDrawing: (name) => guarded(() => openNamed(name)),
+    openDrawing: (name) => guarded(() => {
+      leave();
+      return openNamed(name);
+    }),
     openExample: (name) => guarded(async () => openBlob("example.svg", new Blob([await loadExample(name)], { type: SVG }), name, { drawing: `example:${name}` })),
     openFile: (file) => (isRecording(file.name) ? watch(file) : guarded(async () => openBlob(file.name, file, file.name, await originOf(file)))),
     openEmpty: () => guarded(async () => {
+      leave();
       show({ elements: [], files: {} });
       from.current = null;
       save.adopt({ name: "", base: "drawing", tag: null }, whole());

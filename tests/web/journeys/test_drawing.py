@@ -205,6 +205,24 @@ def test_a_hostile_file_is_refused_in_words(sheet: Sheet, tmp_path: Path) -> Non
     assert "taken" not in sheet.page.title()
 
 
+def test_a_name_that_is_taken_or_leads_elsewhere_is_refused_in_words(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    path = saved(sheet, folder)
+    (folder / "taken.svg").write_text("<svg/>")
+    field = sheet.page.get_by_label("Name of the drawing")
+    for name, words in (("taken", "there is a drawing taken.svg already"), ("../out", "cannot be called")):
+        field.fill(name)
+        field.press("Enter")
+        expect(sheet.page.get_by_role("alert")).to_contain_text(words, timeout=PATIENCE_MS)
+        expect(field).to_have_value(path.name)
+
+    assert "<svg/>" == (folder / "taken.svg").read_text()
+    field.fill("free")
+    field.press("Enter")
+    expect(field).to_have_value("free.svg", timeout=PATIENCE_MS)
+
+
 def test_two_tabs_do_not_lose_each_others_work(sheet: Sheet, folder: Path) -> None:
     sheet.focus()
     sheet.box(300, 150, 600, 450)

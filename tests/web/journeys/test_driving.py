@@ -145,6 +145,10 @@ def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet) 
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
 
     assert doors == in_the_world(sheet, "doors")
+    page.get_by_role("button", name="File").click()
+    page.get_by_role("button", name="home, careful").click()
+    expect(sheet.summary).to_contain_text("9 cells", timeout=PATIENCE_MS)
+    sheet.shot("opened-in-a-drive")
 
 
 def test_a_drive_is_ordered_paused_and_interfered_with_by_keyboard_alone(sheet: Sheet) -> None:
