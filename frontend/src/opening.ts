@@ -2,12 +2,13 @@
 import { restoreElements } from "@excalidraw/excalidraw";
 import type { BinaryFileData, BinaryFiles } from "@excalidraw/excalidraw/types";
 import { upload } from "./api";
-import { newGoal, newPicture, newStart, newStroke, newText, COLOR, type Element } from "./scene";
+import { newGoal, newMeasure, newPicture, newStart, newStroke, newText, COLOR, type Element } from "./scene";
 import { sceneIn, type Scene } from "./svg";
 import { ZONES, type Point, type Upload } from "./types";
 
 const SIZE = 1000; // longer side of a drawing that comes from elsewhere [scene units]
 const LARGEST_PICTURE = 1600; // longer side of a photo that is kept under the drawing [px]
+const MEASURE_BELOW = 40; // how far below the drawing a measure tells its scale [scene units]
 const CORNER: Point = [120, 90]; // where it is put
 const PICTURE = /^image\/(png|jpe?g|webp)$/;
 
@@ -43,7 +44,10 @@ function elementsOf(read: Upload): Opened {
   const labels = read.labels.map(({ text, x, y }) => newText(text, at([x, y]), 20));
   const goal = read.goal ? [newGoal(at(read.goal), 24)] : [];
   const start = read.start ? [newStart(at(read.start), [at(read.start)[0] + 40, at(read.start)[1]])] : [];
-  return { elements: [...strokes, ...zones, ...labels, ...start, ...goal] as Element[], files: {}, svg: read.svg, notes: read.notes };
+  const [left, , right, bottom] = read.bounds;
+  const below = (x: number): Point => [at([x, bottom])[0], at([x, bottom])[1] + MEASURE_BELOW];
+  const measure = read.metres_per_unit ? [newMeasure(below(left), below(right), read.metres_per_unit * (right - left))] : [];
+  return { elements: [...strokes, ...zones, ...labels, ...start, ...goal, ...measure] as Element[], files: {}, svg: read.svg, notes: read.notes };
 }
 
 async function pictureUnder(content: Blob, read: Upload): Promise<{ element: Element; files: BinaryFiles }> {

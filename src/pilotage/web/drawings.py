@@ -133,7 +133,8 @@ def read_upload(sent: Sent) -> Json:
     notes = [f"{len(sketch.strokes)} strokes were taken for walls", *drawing.remarks]
     if drawing.interpretation is not None:
         notes += drawing.interpretation.sheet.left_out
-    return {**describe_drawing(sketch), "svg": svg_of(sketch), "notes": notes}
+    scale = sketch.metres_per_unit
+    return {**describe_drawing(sketch), "metres_per_unit": scale, "svg": svg_of(sketch), "notes": notes}
 
 
 def without_replaced(sketch: SchematicMap) -> SchematicMap:

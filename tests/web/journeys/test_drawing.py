@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 import pilotage
 from web_page import PATIENCE_MS, Sheet
-from web_table import TWO_ROOMS
+from web_table import FLAT, TWO_ROOMS
 
 pytestmark = pytest.mark.slow
 
@@ -176,6 +176,24 @@ def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
 
     expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
     sheet.shot("dxf")
+
+
+def test_the_scale_of_a_file_is_kept_when_it_is_changed_and_saved(
+    sheet: Sheet, folder: Path, tmp_path: Path
+) -> None:
+    plan = tmp_path / "flat.svg"
+    plan.write_text(FLAT.replace("<svg", '<svg data-metres-per-unit="0.05"'))
+    sheet.page.get_by_test_id("file-input").set_input_files(plan)
+    expect(sheet.summary).to_contain_text("4 cells", timeout=PATIENCE_MS)
+    sheet.page.mouse.move(500, 300)
+    expect(sheet.page.get_by_test_id("hover")).to_contain_text("m2", timeout=PATIENCE_MS)
+    sheet.tool("Goal")
+    sheet.page.mouse.click(500, 300)
+
+    sketch = pilotage.open_map(saved(sheet, folder))
+    assert sketch.metres_per_unit is not None
+    left, _, right, _ = sketch.bounds
+    assert 180 * 0.05 == pytest.approx((right - left) * sketch.metres_per_unit, rel=0.01)
 
 
 def test_a_photo_lies_under_what_was_traced_from_it(sheet: Sheet, tmp_path: Path) -> None:
