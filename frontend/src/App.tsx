@@ -170,6 +170,10 @@ export function App() {
 
   const hover = setPointed;
   const hovered = useMemo(() => (pointed ? cellAt(told, pointed) : undefined), [told, pointed]);
+  const point = (event: React.PointerEvent) => { // a finger points where it taps
+    const box = event.currentTarget.getBoundingClientRect();
+    if (tool === "none") hover(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
+  };
   const choose = (next: Tool) => {
     setTool(next);
     setPreview([]);
@@ -278,11 +282,9 @@ export function App() {
       <main>
         <div
           className="sheet-area" hidden={!!drive}
-          onPointerMove={(event) => {
-            const box = event.currentTarget.getBoundingClientRect();
-            if (tool === "none") hover(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
-          }}
-          onPointerLeave={() => hover(null)}
+          onPointerMove={point}
+          onPointerDown={point}
+          onPointerLeave={(event) => event.pointerType !== "touch" && hover(null)}
           onClick={(event) => (event.target as HTMLElement).closest('[data-testid="toolbar-selection"]') && choose("none")}
         >
           <Excalidraw

@@ -17,7 +17,7 @@ export function drawingToSvg(all: readonly Element[], files: BinaryFiles | null)
   const body = elements.flatMap(markOf);
   const goal = goalOf(elements);
   const start = startOf(elements);
-  if (start) body.push(`<circle class="start" cx="${number(start[0])}" cy="${number(start[1])}" r="8" fill="#1f6f8b" data-heading="${number(start[2])}"/>`);
+  if (start) body.push(`<circle class="start" cx="${number(start[0])}" cy="${number(start[1])}" r="8" fill="#1f6f8b" data-heading="${number((start[2] * 180) / Math.PI)}"/>`);
   if (goal) body.push(`<circle class="goal" cx="${number(goal[0])}" cy="${number(goal[1])}" r="8" fill="#e0a100"/>`);
   const scale = scaleOf(elements);
   const [left, top, right, bottom] = boundsOf(elements);

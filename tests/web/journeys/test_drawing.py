@@ -154,6 +154,16 @@ def test_two_clicks_show_the_route_between_them(sheet: Sheet) -> None:
     sheet.shot("route")
 
 
+def test_the_start_of_a_drawing_is_that_of_a_world(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.box(300, 150, 600, 450)
+    sheet.tool("Start")
+    sheet.drag((400, 300), (400, 200))
+
+    world = saved(sheet, folder)
+    assert 'data-heading="90"' in world.read_text()  # degrees, as docs/worlds.md has them
+
+
 def test_a_measure_gives_the_sizes_of_rooms(sheet: Sheet, folder: Path) -> None:
     sheet.draw_flat()
     sheet.tool("Measure")

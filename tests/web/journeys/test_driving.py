@@ -235,6 +235,8 @@ def test_a_drawing_and_its_drive_fit_a_phone(browser: Browser, address: str) -> 
     page = sheet.page
     sheet.shot("phone")
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.touchscreen.tap(195, 400)
+    expect(page.get_by_test_id("hover")).to_contain_text("opens to", timeout=PATIENCE_MS)
     page.get_by_role("button", name="Drive", exact=True).tap()
     page.get_by_role("combobox", name="Goal").select_option("Ana")
     page.get_by_test_id("go").tap()
@@ -249,6 +251,18 @@ def test_a_drawing_and_its_drive_fit_a_phone(browser: Browser, address: str) -> 
     page.get_by_role("button", name="Pause").tap()
     expect(page.get_by_role("button", name="Go on")).to_be_visible(timeout=PATIENCE_MS)
     page.context.close()
+
+
+def test_the_invitation_is_read_whole_on_a_phone(browser: Browser, address: str) -> None:
+    page = browser.new_page(viewport={"width": 390, "height": 760}, has_touch=True)
+    page.goto(address)
+    title = page.get_by_role("heading", name="Draw a building").bounding_box()
+    tools = page.get_by_role("toolbar", name="Tools of the drawing table").bounding_box()
+    page.close()
+
+    assert title is not None
+    assert tools is not None
+    assert tools["y"] + tools["height"] <= title["y"]
 
 
 def test_nothing_seriously_bars_people_who_see_or_move_differently(page: Page, sheet: Sheet) -> None:
