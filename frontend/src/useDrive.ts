@@ -2,6 +2,7 @@
 import { useCallback, useEffect, useRef, useState } from "react";
 import type { Corrected, Frame, Mark, RobotState, Session, World } from "./types";
 
+const REFUSAL_MS = 8000; // that it is told why something cannot be done
 const RETRY_MS = [300, 1000, 2000, 5000];
 
 export interface Drive {
@@ -61,6 +62,7 @@ export function useDrive(): {
       }
       if (message.type === "error" && message.fatal) session.current = "";
       setDrive((before) => heard(before ?? NONE, message));
+      if (message.type === "error" && !message.fatal) setTimeout(() => setDrive((before) => withoutError(before, message.text)), REFUSAL_MS);
       if (message.type === "frame") requestAnimationFrame(() => say(line, { type: "seen" }));
     };
     line.onclose = () => {
@@ -107,6 +109,9 @@ export function useDrive(): {
   useEffect(() => () => socket.current?.close(), []);
   return { drive, begin, resume, restart, send, leave };
 }
+
+/** A drive of which it is no longer told why something could not be done. */
+const withoutError = (drive: Drive | null, text: string) => (drive && drive.error === text && !drive.fatal ? { ...drive, error: "" } : drive);
 
 /** A drive after one more message of the server; unknown ones change nothing. */
 function heard(drive: Drive, message: Record<string, unknown> & { type: string }): Drive {
