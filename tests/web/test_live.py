@@ -140,6 +140,9 @@ def test_what_cannot_be_done_is_said_and_the_drive_goes_on(client: TestClient) -
             ("door", {"x": 1e6, "y": 0}, "no door within"),
             ("person", {"x": "here"}, "x must be a number"),
             ("kidnap", {"x": corner[0], "y": corner[1]}, "cannot stand there"),
+            ("kidnap", {"x": corner[0] - 500.0, "y": corner[1]}, "outside of the building"),
+            ("box", {"x": corner[0] - 500.0, "y": corner[1]}, "outside of the building"),
+            ("person", {"x": corner[0] - 500.0, "y": corner[1]}, "outside of the building"),
             ("scrub", {"t": "then"}, "t must be a number"),
         ):
             talk.say(kind, **fields)

@@ -27,13 +27,15 @@ PERSON_ROOM = 0.3
 """Space [m] that a person needs."""
 PERSON_SPEED = 0.7
 """Speed [m/s] of someone who gets into the way."""
+EDGE = 0.1
+"""So far [m] beyond the outermost wall a click still means the wall."""
 
 Message = Mapping[str, object]
 
 
 def kidnap(stage: Stage, message: Message) -> str:
     """Carry the robot elsewhere, unseen by its wheels."""
-    x, y = world_point(message)
+    x, y = point_within(stage.simulator.world, message)
     heading = number(message, "heading", -FARTHEST, FARTHEST, stage.simulator.world_from_base.theta)
     if not stage.simulator.world.is_free([(x, y)], stage.simulator.settings.body.radius)[0]:
         raise OrderError("the robot cannot stand there, a wall or a thing is in the way")
@@ -60,7 +62,8 @@ def move_door(stage: Stage, message: Message) -> str:
 
 def put_box(stage: Stage, message: Message) -> str:
     """Put a box into the world."""
-    middle, size = np.array(world_point(message)), number(message, "size", SMALLEST_BOX, LARGEST_BOX, BOX)
+    middle = np.array(point_within(stage.simulator.world, message))
+    size = number(message, "size", SMALLEST_BOX, LARGEST_BOX, BOX)
     robot = stage.simulator.world_from_base.position
     if float(np.abs(robot - middle).max()) < size / 2.0 + stage.simulator.settings.body.radius:
         raise OrderError("a box cannot stand where the robot is")
@@ -74,7 +77,8 @@ def put_box(stage: Stage, message: Message) -> str:
 
 def put_person(stage: Stage, message: Message) -> str:
     """Let someone walk to and fro, across the way of the robot if there is room."""
-    here, world = np.array(world_point(message)), stage.simulator.world
+    world = stage.simulator.world
+    here = np.array(point_within(world, message))
     if not world.is_free([here], PERSON_ROOM)[0]:
         raise OrderError("a person cannot stand in a wall")
     across = stage.simulator.world_from_base.rotation[:, 1]
@@ -87,6 +91,15 @@ def put_person(stage: Stage, message: Message) -> str:
 def world_point(message: Message) -> tuple[float, float]:
     """Read a point of the world [m], and turn its y axis up."""
     return number(message, "x", -FARTHEST, FARTHEST), -number(message, "y", -FARTHEST, FARTHEST)
+
+
+def point_within(world: World, message: Message) -> tuple[float, float]:
+    """Read a point that is not outside of all that the world holds."""
+    x, y = world_point(message)
+    left, bottom, right, top = world.bounds
+    if not (left - EDGE <= x <= right + EDGE and bottom - EDGE <= y <= top + EDGE):
+        raise OrderError("that is outside of the building")
+    return x, y
 
 
 def free_reach(world: World, here: Array, along: Array) -> float:
