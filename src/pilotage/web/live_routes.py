@@ -118,7 +118,8 @@ async def obey(message: Message, session: Session, client: Client) -> None:
         else:
             await asyncio.to_thread(session.tell, message)
     elif kind == "leave":
-        await asyncio.to_thread(session.stop_unless_watched, client)
+        if not session.is_watched_beside(client):
+            await asyncio.to_thread(session.tell, {"type": "stop"})
     elif kind == "seen":
         client.saw()
     elif kind == "scrub":

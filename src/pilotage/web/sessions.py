@@ -125,10 +125,9 @@ class Session:
         self.clients.discard(client)
         self.watched_at = time.monotonic()
 
-    def stop_unless_watched(self, client: Client) -> None:
-        """Stop a drive that nobody but this client watches; its record stays."""
-        if not self.clients - {client}:
-            self.tell({"type": "stop"})
+    def is_watched_beside(self, client: Client) -> bool:
+        """Tell whether others than this client watch."""
+        return bool(self.clients - {client})
 
     def scrub(self, client: Client, t: float | None) -> None:
         """Show a client a moment of the past, or what is now."""
