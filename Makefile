@@ -21,6 +21,7 @@ check: $(VENV)/ready-dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python -c 'import pilotage.web.preload'  # compiles most kernels once, not in each process of tests
 	$(BIN)/pytest $(PARALLEL)
 
 test: $(VENV)/ready-dev  # the fast part of the tests, for the loop of editing
