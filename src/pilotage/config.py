@@ -36,11 +36,13 @@ class Settings:
     simulator: SimulatorSettings = field(default_factory=SimulatorSettings)
 
 
-def read_settings(path: Path | str) -> Settings:
-    """Read settings from a TOML file.
+def read_settings(path: Path | str | None) -> Settings:
+    """Read settings from a TOML file; without one they are the defaults.
 
     Raises FileError if it cannot be read, SettingsError if it holds an unknown name or an invalid value.
     """
+    if path is None:
+        return Settings()
     tree = read_toml(path, "a settings file")
     try:
         return settings_from(tree)

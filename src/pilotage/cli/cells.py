@@ -48,16 +48,12 @@ def cells(
     - `pilotage cells scan.png --shading light-is-free`
     """
     check_outputs([output], figure=figure, force=force)
+    from pilotage.config import read_settings
     from pilotage.errors import FileError
     from pilotage.findings import report
-    from pilotage.maps import DecompositionSettings, RouteSettings
 
-    division, routing = DecompositionSettings(), RouteSettings()
-    if settings is not None:
-        from pilotage.config import read_settings
-
-        chosen = read_settings(settings)
-        division, routing = chosen.localizer.atlas.decomposition, chosen.navigator.route
+    chosen = read_settings(settings)
+    division, routing = chosen.localizer.atlas.decomposition, chosen.navigator.route
     opened = open_drawing(drawing, layer, label, page, shading)
     sketch = opened.sketch
     found = report(sketch, opened.interpretation, settings=division)

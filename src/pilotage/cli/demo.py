@@ -41,11 +41,9 @@ def demo(
 
     **Example:** `pilotage demo -o demo`
     """
-    chosen = None
-    if settings is not None:
-        from pilotage.config import read_settings
+    from pilotage.config import read_settings
 
-        chosen = read_settings(settings)
+    chosen = read_settings(settings)
     claim(output, [output / name for name in (JOURNAL, FIGURE, ANIMATION)], force=force)
     from pilotage.drives import set_out
     from pilotage.io import open_map, open_world

@@ -115,10 +115,8 @@ def findings_of(sketch: "SchematicMap", settings: Path | None) -> "tuple[Finding
     return check(sketch, division_in(settings))
 
 
-def division_in(settings: Path | None) -> "DecompositionSettings | None":
+def division_in(settings: Path | None) -> "DecompositionSettings":
     """Read from a file of settings how drawings are divided into cells; None: as by default."""
-    if settings is None:
-        return None
     from pilotage.config import read_settings
 
     return read_settings(settings).localizer.atlas.decomposition

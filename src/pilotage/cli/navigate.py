@@ -249,9 +249,9 @@ def chosen_settings(
     """Read settings; time limit and size of the robot of the command line override theirs."""
     from dataclasses import replace
 
-    from pilotage.config import Settings, read_settings
+    from pilotage.config import read_settings
 
-    settings = Settings() if path is None else read_settings(path)
+    settings = read_settings(path)
     if size is not None:
         length, radius = size[0], size[1] / 2.0
         body = replace(settings.simulator.body, length=length, radius=radius)

@@ -31,15 +31,11 @@ def perceive(
     **Example:** `pilotage perceive run.log.gz --scan 120 --figure scan.png`
     """
     check_outputs((), figure=figure, force=force)
+    from pilotage.config import read_settings
     from pilotage.io import open_log
-    from pilotage.perception import PerceptionSettings
     from pilotage.perception import perceive as see
 
-    chosen = PerceptionSettings()
-    if settings is not None:
-        from pilotage.config import read_settings
-
-        chosen = read_settings(settings).localizer.scan_matching.perception
+    chosen = read_settings(settings).localizer.scan_matching.perception
     readings = open_log(log, scan_topic=scan_topic)
     if readings.complaint:
         say(readings.complaint)

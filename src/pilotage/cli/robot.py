@@ -129,9 +129,9 @@ def check_names(namespace: str, scan_topic: str, odometry_topic: str, command_to
 
 def chosen_settings(path: Path | None, limits: Limits, length: float = 0.0) -> "Settings":
     """Read settings; size and limits of the command line override theirs."""
-    from pilotage.config import Settings, read_settings
+    from pilotage.config import read_settings
 
-    return limited(Settings() if path is None else read_settings(path), limits, length)
+    return limited(read_settings(path), limits, length)
 
 
 def limited(settings: "Settings", limits: Limits, length: float) -> "Settings":

@@ -62,14 +62,11 @@ def open_localizer(
     scale: float | None,
 ) -> "Localizer":
     """Prepare the drawing; a start that lies in no room is refused, as by `navigate`."""
-    from pilotage.localization import Localizer, LocalizerSettings
+    from pilotage.config import read_settings
+    from pilotage.localization import Localizer
     from pilotage.navigation.goal import sketch_point
 
-    chosen = LocalizerSettings()
-    if settings is not None:
-        from pilotage.config import read_settings
-
-        chosen = read_settings(settings).localizer
+    chosen = read_settings(settings).localizer
     with busy("Reading the drawing"), signals_held():
         try:
             localizer = Localizer(sketch, chosen, seed=seed, start=start, scale=scale)

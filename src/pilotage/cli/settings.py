@@ -17,6 +17,6 @@ def settings(
 
     **Example:** `pilotage settings > mine.toml`, then `pilotage localize ... --settings mine.toml`
     """
-    from pilotage.config import Settings, read_settings, settings_text
+    from pilotage.config import read_settings, settings_text
 
-    typer.echo(settings_text(read_settings(file) if file is not None else Settings()), nl=False)
+    typer.echo(settings_text(read_settings(file)), nl=False)

@@ -10,9 +10,6 @@ from pilotage.cli.drawing import Labels, Layers, Map, Page, Shade, open_drawing
 from pilotage.cli.options import Force, SettingsFile
 from pilotage.cli.terminal import check_outputs, say
 
-SHARE = 0.0025
-"""Relevance below which a vertex goes, as a share of the drawing's diagonal."""
-
 
 def simplify(
     drawing: Map,
@@ -22,7 +19,7 @@ def simplify(
         typer.Option(
             min=0.0,
             help="Vertices less relevant than this share of the drawing's diagonal go.",
-            show_default=f"{SHARE}, or localizer.atlas.detail of the settings",
+            show_default="localizer.atlas.detail of the settings",
         ),
     ] = None,
     figure: Annotated[
@@ -42,13 +39,11 @@ def simplify(
     **Example:** `pilotage simplify office.svg --figure evolution.png`
     """
     check_outputs((), figure=figure, force=force)
+    from pilotage.config import read_settings
     from pilotage.shape import Simplification, simplify_all
 
-    if share is None and settings is not None:
-        from pilotage.config import read_settings
-
+    if share is None:
         share = read_settings(settings).localizer.atlas.detail
-    share = SHARE if share is None else share
     if not math.isfinite(share):
         raise typer.BadParameter(f"a share must be finite, got {share}", param_hint="--share")
     sketch = open_drawing(drawing, layer, label, page, shading).sketch
