@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import registration_oracles as oracles
 from pilotage.kernels.point_to_segment import linearize, refine_pose, solve_symmetric
 from pilotage.kernels.pose_search import add_place_scores, search_poses
-from pilotage.kernels.samples import Samples
+from pilotage.kernels.samples import Samples, Trials
 from pilotage.kernels.segment_field import NONE, build_segment_field, find_nearest
 from pilotage.kernels.segment_sampling import sample_segments
 
@@ -181,13 +181,15 @@ def test_the_search_finds_a_room_that_odometry_lost():
         guess,
         np.array([0.4, 0.3]),
         np.array([1.2, 0.9]),
-        math.radians(3.0),
-        2,
-        0.3,
-        0.5,
-        0.03,
-        4.0,
-        8,
+        Trials(
+            turn_step=math.radians(3.0),
+            stride=2,
+            scale=0.3,
+            min_cosine=0.5,
+            prior_weight=0.03,
+            robust_scale=4.0,
+            kept=8,
+        ),
     )
 
     assert poses.shape == (8, 3)

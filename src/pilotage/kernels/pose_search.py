@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pilotage.kernels.compiling import njit
-from pilotage.kernels.samples import Samples
+from pilotage.kernels.samples import Samples, Trials
 from pilotage.kernels.segment_field import NONE, SegmentField
 
 
@@ -80,27 +80,14 @@ def search_poses(
     prior: NDArray[np.float64],
     stds: NDArray[np.float64],
     window: NDArray[np.float64],
-    turn_step: float,
-    stride: int,
-    scale: float,
-    min_cosine: float,
-    prior_weight: float,
-    robust_scale: float,
-    count: int,
+    trials: Trials,
 ) -> NDArray[np.float64]:
-    """Try headings and places around a pose (x, y, theta) and return the best, (count, 3).
+    """Try headings and places around a pose (x, y, theta) and return the best, (n, 3).
 
-    Parameters
-    ----------
-    stds, window
-        Standard deviations of the prior, and how far from it to look: place and heading, (2,) each.
-    turn_step, stride
-        Steps between headings, and between places in cells of the field.
-    prior_weight, robust_scale
-        A pose scores the share of points near their segments, less
-        prior_weight * log(1 + m^2 / robust_scale) at m standard deviations from the prior.
+    `stds` and `window` are the standard deviations of the prior, and how far from it to look: place [m] and
+    heading [rad], (2,) each.
     """
-    step = stride * field.cell
+    step, turn_step = trials.stride * field.cell, trials.turn_step
     half, half_turns = math.ceil(window[0] / step), math.ceil(window[1] / turn_step)
     side, turns = 2 * half + 1, 2 * half_turns + 1
     corner = prior[:2] - half * step
@@ -108,16 +95,18 @@ def search_poses(
     total = max(samples.weights.sum(), 1.0)
     for h in range(turns):
         turn = (h - half_turns) * turn_step
-        add_place_scores(scores[h], samples, field, corner, prior[2] + turn, stride, scale, min_cosine)
+        heading = prior[2] + turn
+        add_place_scores(
+            scores[h], samples, field, corner, heading, trials.stride, trials.scale, trials.min_cosine
+        )
         for iy in range(side):
             for ix in range(side):
                 place = ((ix - half) ** 2 + (iy - half) ** 2) * (step / stds[0]) ** 2
                 m = place + (turn / stds[1]) ** 2
-                scores[h, iy, ix] = scores[h, iy, ix] / total - prior_weight * math.log(
-                    1.0 + m / robust_scale
-                )
-    poses = np.empty((count, 3))
-    for n in range(count):
+                penalty = trials.prior_weight * math.log(1.0 + m / trials.robust_scale)
+                scores[h, iy, ix] = scores[h, iy, ix] / total - penalty
+    poses = np.empty((trials.kept, 3))
+    for n in range(trials.kept):
         h, iy, ix = take_peak(scores)
         poses[n, 0], poses[n, 1] = corner[0] + ix * step, corner[1] + iy * step
         poses[n, 2] = prior[2] + (h - half_turns) * turn_step

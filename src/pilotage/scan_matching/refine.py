@@ -10,7 +10,7 @@ import numpy as np
 
 from pilotage import kernels
 from pilotage.geometry import Array, Pose2, segments_of
-from pilotage.kernels.samples import Samples
+from pilotage.kernels.samples import Samples, Trials
 from pilotage.scan_matching.local_map import LocalMap
 from pilotage.scan_matching.odometry import MotionPrior, OdometryNoise
 from pilotage.shape import PartialShape
@@ -42,17 +42,16 @@ PRIOR_WEIGHT = 0.03
 SEARCH_POINTS = 80
 """Number of points of the scan with which each pose is tried, about."""
 
-SEARCH_STARTS = 10
-"""Number of poses from which refinement starts."""
-
-SEARCH_TURN = math.radians(2.0)
-"""[rad] Between the headings tried."""
-
-SEARCH_STRIDE = 2
-"""Cells of the map's field between the positions tried: 20 cm."""
-
-SEARCH_SCALE = 0.3
-"""[m] Distance at which a point counts half in the search."""
+TRIALS = Trials(
+    turn_step=math.radians(2.0),
+    stride=2,  # 20 cm
+    scale=0.3,
+    min_cosine=MIN_COSINE,
+    prior_weight=PRIOR_WEIGHT,
+    robust_scale=ROBUST_SCALE,
+    kept=10,
+)
+"""Poses that are tried; refinement starts from the best."""
 
 SEARCH_STDS = 3.0
 """Poses are tried within this many standard deviations of the prior ..."""
@@ -147,13 +146,7 @@ def _search(samples: Samples, local_map: LocalMap, prior: MotionPrior, window: t
         prior.pose,
         np.array([prior.position_std, prior.heading_std]),
         np.array(window),
-        SEARCH_TURN,
-        SEARCH_STRIDE,
-        SEARCH_SCALE,
-        MIN_COSINE,
-        PRIOR_WEIGHT,
-        ROBUST_SCALE,
-        SEARCH_STARTS,
+        TRIALS,
     )
     return poses
 
