@@ -50,6 +50,7 @@ export function App() {
   const layDown = useRef(() => {});
   const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
   const { drive, begin, resume, restart, send, leave } = useDrive();
+  const watching = drive !== null && driving; // else the drive goes on behind the sheet
 
   const elements = useCallback(() => (editor?.getSceneElements() ?? []) as readonly Element[], [editor]);
   const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
@@ -57,7 +58,7 @@ export function App() {
   const whole = useCallback(() => (elements().length ? drawingToSvg(elements(), files()) : ""), [elements, files]);
   const save = useAutosave(whole, revision);
   const routeEnds = useMemo<[Point, Point] | null>(() => (ends.length === 2 ? [ends[0]!, ends[1]!] : null), [ends]);
-  useEditorKeys(!drive);
+  useEditorKeys(!watching);
   const { told, error } = useUnderstanding(plain, save.document.name, revision, routeEnds);
 
   const tell = useCallback((text: string) => setNotice(text), []);
@@ -218,6 +219,13 @@ export function App() {
     begin(source ? { ...order, content: undefined, drawing: undefined, ...source } : order);
   };
 
+  // A simulated drive goes on meanwhile; a real robot is not commanded by a page that does not show it.
+  const isRobot = drive?.session?.kind === "robot";
+  const lookAtSheet = () => {
+    if (isRobot || drive?.fatal) leave();
+    setDriving(false);
+  };
+
   const again = () => {
     if (!drive?.session) return go();
     setFate("none");
@@ -256,7 +264,7 @@ export function App() {
 
   return (
     <div
-      className={`app ${drive ? "live" : driving ? "setup-open" : ""}`}
+      className={`app ${watching ? "live" : driving ? "setup-open" : ""}`}
       onDragOver={(event) => event.dataTransfer.types.includes("Files") && event.preventDefault()}
       onDropCapture={(event) => {
         const file = event.dataTransfer.files[0];
@@ -274,14 +282,14 @@ export function App() {
           {save.document.name || save.state !== "saved" ? { saved: "saved", saving: "saving ...", conflict: "changed elsewhere", failed: "not saved" }[save.state] : ""}
         </span>
         <nav aria-label="Mode">
-          <button aria-pressed={!driving} onClick={() => { leave(); setDriving(false); }}>Draw</button>
-          <button aria-pressed={driving} onClick={() => { setDriving(true); setWelcome(false); }}>Drive</button>
+          <button aria-pressed={!driving} onClick={lookAtSheet}>Draw</button>
+          <button aria-pressed={driving} onClick={() => { setDriving(true); setWelcome(false); }}>{drive && !driving ? "Back to the drive" : "Drive"}</button>
         </nav>
       </header>
 
       <main>
         <div
-          className="sheet-area" hidden={!!drive}
+          className="sheet-area" hidden={watching}
           onPointerMove={point}
           onPointerDown={point}
           onPointerLeave={(event) => event.pointerType !== "touch" && hover(null)}
@@ -310,11 +318,11 @@ export function App() {
             <span data-testid="hover">{bottomLine}</span>
           </div>
         </div>
-        {drive && <DriveView drive={drive} fate={fate} setFate={setFate} send={send} />}
+        {watching && <DriveView drive={drive} fate={fate} setFate={setFate} send={send} />}
       </main>
 
-      {drive?.session?.kind === "robot" && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
-      {drive && drive.session?.kind !== "robot" && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={again} leave={leave} />}
+      {watching && isRobot && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
+      {watching && !isRobot && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={again} leave={leave} />}
       {driving && !drive && (
         <DriveSetup
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}

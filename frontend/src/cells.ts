@@ -19,7 +19,7 @@ function isInside(polygon: Point[], [x, y]: Point): boolean {
 export function describeCell(cell: Cell, told: Understanding | null, scale: number | null): string {
   const area = scale ? `, about ${(areaOf(cell) * scale ** 2).toFixed(0)} m2` : "";
   const nameOf = (id: string) => told?.cells.find((one) => one.id === id)?.name || id;
-  const ways = cell.neighbors.length ? `opens to ${cell.neighbors.map((one) => nameOf(one.cell)).join(", ")}` : "no way in";
+  const ways = cell.neighbors.length ? `opens to ${cell.neighbors.map((one) => nameOf(one.cell)).join(", ")}` : "opens to no other room";
   return `${cell.name || cell.id}: ${cell.size}${area}; ${ways}`;
 }
 

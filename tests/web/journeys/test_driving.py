@@ -145,6 +145,12 @@ def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet) 
     expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
 
     assert doors == in_the_world(sheet, "doors")
+    address = page.url
+    page.get_by_role("button", name="Draw", exact=True).click()
+    expect(sheet.summary).to_contain_text("4 cells", timeout=PATIENCE_MS)
+    page.get_by_role("button", name="Back to the drive").click()
+    expect(page.get_by_test_id("probability")).to_be_visible(timeout=PATIENCE_MS)
+    assert page.url == address
     page.get_by_role("button", name="Box", exact=True).click()
     page.mouse.click(*sheet.in_world(*in_the_world(sheet, "robot")[0]))
     refusal = page.get_by_text("a box cannot stand where the robot is")
