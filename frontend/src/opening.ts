@@ -2,9 +2,9 @@
 import { restoreElements } from "@excalidraw/excalidraw";
 import type { BinaryFileData, BinaryFiles } from "@excalidraw/excalidraw/types";
 import { upload } from "./api";
-import { newGoal, newMeasure, newPicture, newStart, newStroke, newText, COLOR, type Element } from "./scene";
+import { newGoal, newMeasure, newPicture, newStart, newStroke, newText, COLOR, type Element, type Style } from "./scene";
 import { sceneIn, type Scene } from "./svg";
-import { ZONES, type Point, type Upload } from "./types";
+import { ZONES, type Point, type Stroke, type Upload } from "./types";
 
 const SIZE = 1000; // longer side of a drawing that comes from elsewhere [scene units]
 const LARGEST_PICTURE = 1600; // longer side of a photo that is kept under the drawing [px]
@@ -23,8 +23,9 @@ export async function openContent(name: string, content: Blob, drawing = ""): Pr
   const scene = isText ? sceneIn(await content.text()) : null;
   if (scene) return { elements: restoreElements(scene.elements, null), files: scene.files, svg: null, notes: [] };
   const read = await upload(name, content, drawing);
-  const opened = elementsOf(read);
-  if (!PICTURE.test(content.type)) return opened;
+  const isPicture = PICTURE.test(content.type); // it shows its furniture itself
+  const opened = elementsOf(isPicture ? { ...read, furniture: [] } : read);
+  if (!isPicture) return opened;
   const picture = await pictureUnder(content, read).catch(() => null);
   return picture
     ? { ...opened, elements: [picture.element, ...opened.elements], files: picture.files, notes: [...opened.notes, "the picture lies under the drawing"] }
@@ -38,7 +39,10 @@ function placing({ bounds: [left, top, right, bottom] }: Upload) {
 
 function elementsOf(read: Upload): Opened {
   const { at } = placing(read);
-  const strokes = read.strokes.map(({ points, closed }) => newStroke((closed ? [...points, points[0]!] : points).map(at)));
+  const strokeOf = ({ points, closed }: Stroke, style: Style) =>
+    newStroke((closed ? [...points, points[0]!] : points).map(at), { strokeColor: COLOR[style] });
+  const strokes = read.strokes.map((one) => strokeOf(one, "wall"));
+  const furniture = read.furniture.map((one) => strokeOf(one, "furniture"));
   const zones = ZONES.flatMap((kind) => read.zones[kind].map((points) =>
     newStroke((kind === "one-way" ? points : [...points, points[0]!]).map(at), { strokeColor: COLOR[kind] }, kind === "one-way" ? "arrow" : "line")));
   const labels = read.labels.map(({ text, x, y }) => newText(text, at([x, y]), 20));
@@ -47,7 +51,7 @@ function elementsOf(read: Upload): Opened {
   const [left, , right, bottom] = read.bounds;
   const below = (x: number): Point => [at([x, bottom])[0], at([x, bottom])[1] + MEASURE_BELOW];
   const measure = read.metres_per_unit ? [newMeasure(below(left), below(right), read.metres_per_unit * (right - left))] : [];
-  return { elements: [...strokes, ...zones, ...labels, ...start, ...goal, ...measure] as Element[], files: {}, svg: read.svg, notes: read.notes };
+  return { elements: [...furniture, ...strokes, ...zones, ...labels, ...start, ...goal, ...measure] as Element[], files: {}, svg: read.svg, notes: read.notes };
 }
 
 async function pictureUnder(content: Blob, read: Upload): Promise<{ element: Element; files: BinaryFiles }> {

@@ -21,6 +21,7 @@ export interface Upload {
   bounds: [number, number, number, number];
   start: Point | null;
   goal: Point | null;
+  furniture: Stroke[];
   metres_per_unit: number | null;
   notes: string[];
 }

@@ -4,7 +4,8 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
-from pilotage.web import file_routes, work
+from pilotage.web import drawings, file_routes, work
+from pilotage.web.order import Sent
 from web_table import CLOSED, FLAT
 
 SVG = {"Content-Type": "image/svg+xml"}
@@ -216,6 +217,18 @@ THICK = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 220 120">
 <path fill="black" fill-rule="evenodd" d="M10 10 H210 V110 H10 Z
 M16 16 V104 H107 V70 H113 V104 H204 V16 H113 V50 H107 V16 Z"/></svg>"""
 """Two rooms between walls that have a thickness."""
+
+
+def test_furniture_stays_furniture_in_an_upload(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    sofa = '<path class="furniture" d="M12 12 h6 v4 h-6 z"/></svg>'
+    furnished = FLAT.replace("</svg>", sofa).encode()
+    read = client.post("/api/uploads?name=a.svg", content=furnished).json()
+
+    assert [{"points": [[12, 12], [18, 12], [18, 16], [12, 16]], "closed": True}] == read["furniture"]
+    monkeypatch.setattr(drawings, "MOST_FURNITURE", 0)
+    read = drawings.read_upload(Sent(".svg", furnished))
+    assert [] == read["furniture"]
+    assert "the furniture is left out: it has 1 lines, more than 0" in read["notes"]
 
 
 def test_walls_that_have_a_thickness_keep_it_in_an_upload(client: TestClient) -> None:

@@ -12,7 +12,7 @@ import shapely
 
 from pilotage.errors import FileError, PilotageError
 from pilotage.geometry import Array, Polyline
-from pilotage.interpretation import ZONE_ROLES
+from pilotage.interpretation import ZONE_ROLES, Role
 from pilotage.maps import DecompositionSettings, NotEnclosedError, SchematicMap, decompose
 from pilotage.web.order import Sent
 
@@ -31,6 +31,8 @@ LETTERS = 6.0
 """Height of its letters, in widths of a stroke: larger ones of neighboring rooms would run together."""
 ZONES = tuple(role.value for role in ZONE_ROLES)
 """Names of the kinds of zones, in their order."""
+MOST_FURNITURE = 1_500
+"""Lines of furniture that are shown on the sheet, at most: with more of them the editor is slow."""
 
 
 class UnreadableError(PilotageError):
@@ -131,10 +133,35 @@ def read_upload(sent: Sent) -> Json:
     drawing = read_sent(sent)
     sketch = without_replaced(drawing.sketch)
     notes = [f"{len(sketch.strokes)} strokes were taken for walls", *drawing.remarks]
+    furniture = furniture_of(drawing)
     if drawing.interpretation is not None:
         notes += drawing.interpretation.sheet.left_out
-    scale = sketch.metres_per_unit
-    return {**describe_drawing(sketch), "metres_per_unit": scale, "svg": svg_of(sketch), "notes": notes}
+    if len(furniture) > MOST_FURNITURE:
+        notes.append(f"the furniture is left out: it has {len(furniture)} lines, more than {MOST_FURNITURE}")
+        furniture = []
+    page = Page(sketch)
+    return {
+        **describe_drawing(sketch),
+        "furniture": [{"points": page.points(line.vertices), "closed": line.closed} for line in furniture],
+        "metres_per_unit": sketch.metres_per_unit,
+        "svg": svg_of(sketch),
+        "notes": notes,
+    }
+
+
+def furniture_of(drawing: "Drawing") -> list[Polyline]:
+    """List the outlines of what was taken for furniture, among the walls."""
+    found = drawing.interpretation
+    if found is None:
+        return []
+    left, bottom, right, top = drawing.sketch.bounds
+    meanings = zip(found.sheet.marks, found.meanings, strict=True)
+    lines = [line for mark, meaning in meanings if meaning.role is Role.FURNITURE for line in mark.outlines]
+    return [
+        line
+        for line in lines
+        if ((left, bottom) <= line.vertices).all() and (line.vertices <= (right, top)).all()
+    ]
 
 
 def without_replaced(sketch: SchematicMap) -> SchematicMap:
