@@ -50,7 +50,8 @@ export function App() {
   const layDown = useRef(() => {});
   const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
   const { drive, begin, resume, restart, send, leave } = useDrive();
-  const watching = drive !== null && driving; // else the drive goes on behind the sheet
+  const refused = drive !== null && drive.fatal && !drive.session;
+  const watching = drive !== null && driving && !refused; // else the drive goes on behind the sheet
 
   const elements = useCallback(() => (editor?.getSceneElements() ?? []) as readonly Element[], [editor]);
   const files = useCallback(() => editor?.getFiles() ?? {}, [editor]);
@@ -233,7 +234,6 @@ export function App() {
   };
 
   // A journal is in the units of the file that is open, or of the sheet if it was driven at the table.
-  const refused = drive?.fatal === true && !drive.session;
   useEffect(() => {
     if (!refused || !otherwise.current) return;
     begin(otherwise.current);
@@ -283,7 +283,7 @@ export function App() {
         </span>
         <nav aria-label="Mode">
           <button aria-pressed={!driving} onClick={lookAtSheet}>Draw</button>
-          <button aria-pressed={driving} onClick={() => { setDriving(true); setWelcome(false); }}>{drive && !driving ? "Back to the drive" : "Drive"}</button>
+          <button aria-pressed={driving} onClick={() => { setDriving(true); setWelcome(false); }}>{drive && !driving && !refused ? "Back to the drive" : "Drive"}</button>
         </nav>
       </header>
 
@@ -323,8 +323,9 @@ export function App() {
 
       {watching && isRobot && <RobotControls drive={drive} fate={fate} setFate={setFate} send={send} leave={leave} />}
       {watching && !isRobot && <DriveControls drive={drive} fate={fate} setFate={setFate} send={send} restart={again} leave={leave} />}
-      {driving && !drive && (
+      {driving && !watching && (
         <DriveSetup
+          refusal={refused ? drive.error : ""}
           choice={choice} setChoice={setChoice} goals={names} goal={goalName} setGoal={setGoalName}
           hasGoal={goalOf(elements()) !== null} hasStart={startOf(elements()) !== null} watch={watch} go={go}
         />

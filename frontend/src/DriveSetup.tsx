@@ -30,12 +30,13 @@ interface Props {
   hasStart: boolean;
   goals: string[];
   goal: string;
+  refusal: string; // why the last drive did not begin
   setGoal: (goal: string) => void;
   watch: (file: File) => void;
   go: () => void;
 }
 
-export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, setGoal, watch, go }: Props) {
+export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, refusal, setGoal, watch, go }: Props) {
   const [worlds, setWorlds] = useState<WorldChoice[]>([]);
   const [recordings, setRecordings] = useState<RecordingChoice[]>([]);
   useEffect(() => {
@@ -122,6 +123,7 @@ export function DriveSetup({ choice, setChoice, hasGoal, hasStart, goals, goal, 
       <button className="primary" type="submit" disabled={!ready} data-testid="go">{recording ? "Watch" : isReal ? "Join the robot" : "Go"}</button>
       {isReal && <span className="quiet">Joining moves nothing: it is a dry run until you let the robot drive.</span>}
       {!ready && <span className="quiet">Set a flag with the tool "Goal", or choose a room.</span>}
+      {refusal && <span className="bad" role="alert">{refusal}</span>}
     </form>
   );
 }
