@@ -1,14 +1,17 @@
 """Drives over the websocket."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
 from starlette.testclient import TestClient
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pilotage.config import settings_from
 from pilotage.drives import drive, set_out
@@ -18,11 +21,33 @@ from pilotage.simulation import World
 from pilotage.web.app import build_app
 from pilotage.web.folder import Folder
 from pilotage.web.guard import Access
+from pilotage.web.live_routes import live, receive
 from pilotage.web.table import Table
-from web_table import APART, CONTENT, FLAT, HOST, LIVE, TOKEN, TWO_ROOMS, Talk
+from web_table import APART, CONTENT, FLAT, HOST, LIVE, TOKEN, TWO_ROOMS, Talk, finished
 
 SVG = "{http://www.w3.org/2000/svg}"
 REAL = {"made_real": {"severity": 0.4, "seed": 3}}
+
+
+def says(kind: str, **fields: object) -> dict[str, Any]:
+    """Make a message of a page, as the server hears it."""
+    return {"type": "websocket.receive", "text": json.dumps({"v": 1, "type": kind, **fields})}
+
+
+def to_a_page(
+    heard: Iterator[dict[str, Any]], *, takes: tuple[str, ...], table: Table | None = None
+) -> WebSocket:
+    """Open a websocket to a page that says these messages, and that takes no other kinds than these."""
+
+    async def receive_next() -> dict[str, Any]:
+        return next(heard)
+
+    async def send(message: MutableMapping[str, Any]) -> None:
+        if message["type"] not in takes:
+            raise OSError
+
+    app = SimpleNamespace(state=SimpleNamespace(table=table))
+    return WebSocket({"type": "websocket", "app": app}, receive_next, send)
 
 
 @contextmanager
@@ -405,3 +430,33 @@ def test_a_message_that_is_nested_too_deep_is_answered(client: TestClient) -> No
         websocket.send_text("[" * 100_000)
 
         assert "JSON object" in websocket.receive_json()["text"]
+
+
+def test_a_message_that_is_not_text_is_answered(client: TestClient) -> None:
+    with client.websocket_connect(LIVE) as websocket:
+        websocket.send_bytes(b"\xff\x00")
+
+        assert "JSON object" in websocket.receive_json()["text"]
+
+
+def test_a_page_that_is_gone_before_it_is_refused_raises_nothing(table: Table) -> None:
+    heard = iter([{"type": "websocket.connect"}, says("resume", session="gone")])
+
+    finished(live(to_a_page(heard, takes=("websocket.accept", "websocket.send"), table=table)))
+    table.close()
+
+
+def test_a_page_that_took_nothing_more_is_heard_to_the_end() -> None:
+    async def talk() -> None:
+        heard = iter(
+            [{"type": "websocket.connect"}, says("seen"), {"type": "websocket.disconnect", "code": 1001}]
+        )
+        websocket = to_a_page(heard, takes=("websocket.accept",))
+        await websocket.accept()
+        with pytest.raises(WebSocketDisconnect):  # as the one who sends frames sees it
+            await websocket.send_text("a frame")
+        assert "seen" == (await receive(websocket))["type"]
+        with pytest.raises(WebSocketDisconnect):
+            await receive(websocket)
+
+    finished(talk())

@@ -12,7 +12,7 @@ from starlette.background import BackgroundTask
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from pilotage.web import order as orders
 from pilotage.web.file_routes import EXAMPLES, LARGEST_DRAWING, MEDIA, ROBOT, example_drawing
@@ -34,6 +34,8 @@ LARGEST_MESSAGE = 2 * LARGEST_DRAWING
 """Letters of a message: a drawing that is not saved comes in one."""
 UNUSABLE = 1003
 """Code with which a websocket is closed whose first message is no use (RFC 6455)."""
+BROKEN = 1006
+"""Code of a websocket that ended without a word."""
 
 
 async def live(websocket: WebSocket) -> None:
@@ -44,7 +46,8 @@ async def live(websocket: WebSocket) -> None:
     except WebSocketDisconnect:
         return
     if session is None:
-        await websocket.close(UNUSABLE)
+        with contextlib.suppress(WebSocketDisconnect):  # the page has gone before
+            await websocket.close(UNUSABLE)
         return
     client = Client()
     session.join(client)
@@ -88,15 +91,22 @@ async def find_session(message: Message, table: Table) -> Session:
 
 
 async def receive(websocket: WebSocket) -> Message:
-    """Receive a message; one that is none is answered, and the next one is waited for."""
+    """Receive a message; one that is none is answered, and the next one is waited for.
+
+    Raises WebSocketDisconnect if nobody is there any more, also if that was noticed by what was sent.
+    """
     while True:
-        received = await websocket.receive_text()
+        received = await websocket.receive()
+        if received["type"] == "websocket.disconnect":
+            raise WebSocketDisconnect(received["code"])
         try:
-            message = json.loads(received)
+            message = json.loads(received.get("text") or "")
         except (ValueError, RecursionError):
             message = None
         if isinstance(message, dict):
             return message
+        if websocket.application_state is not WebSocketState.CONNECTED:
+            raise WebSocketDisconnect(BROKEN)
         await websocket.send_text(error_text(OrderError("a message must be a JSON object")))
 
 
