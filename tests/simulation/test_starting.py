@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pilotage.simulation import StartError, World, find_start
+from pilotage.simulation.starting import is_in_building
 
 RADIUS = 0.2
 
@@ -43,3 +44,17 @@ def test_the_same_seed_finds_the_same_place():
 def test_a_world_that_encloses_no_free_space_is_refused(walls):
     with pytest.raises(StartError, match="free space that walls enclose"):
         find_start(World(np.array(walls, dtype=np.float64)), RADIUS, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize("gap", [0.0, 1.0])
+def test_the_notch_of_a_building_is_outside_unless_a_door_leads_there(gap):
+    walls = [
+        *((0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 4 + gap, 4), (4, 4, 4, 8), (4, 8, 0, 8), (0, 8, 0, 0)),
+        *((0, 3, 2, 3), (2, 3, 2, 0)),  # a room without a door
+    ]
+    world = World(np.array(walls, dtype=np.float64))
+    robot = (6.0, 2.0)
+
+    assert is_in_building(world, (2.0, 6.0), robot, RADIUS)
+    assert is_in_building(world, (1.0, 1.0), robot, RADIUS)
+    assert (gap > 0.0) == is_in_building(world, (6.0, 6.0), robot, RADIUS)

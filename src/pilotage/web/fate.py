@@ -12,6 +12,7 @@ import numpy as np
 
 from pilotage.geometry import Array, Polyline, Pose2
 from pilotage.simulation import Door, Person, World
+from pilotage.simulation.starting import is_in_building
 from pilotage.web.order import FARTHEST, OrderError, number, switch
 from pilotage.web.stage import Stage
 
@@ -37,8 +38,12 @@ def kidnap(stage: Stage, message: Message) -> str:
     """Carry the robot elsewhere, unseen by its wheels."""
     x, y = point_within(stage.simulator.world, message)
     heading = number(message, "heading", -FARTHEST, FARTHEST, stage.simulator.world_from_base.theta)
-    if not stage.simulator.world.is_free([(x, y)], stage.simulator.settings.body.radius)[0]:
+    world, radius = stage.simulator.world, stage.simulator.settings.body.radius
+    if not world.is_free([(x, y)], radius)[0]:
         raise OrderError("the robot cannot stand there, a wall or a thing is in the way")
+    here = stage.simulator.world_from_base
+    if not is_in_building(world, (x, y), (here.x, here.y), radius):
+        raise OrderError("that is outside of the building")
     stage.simulator.carry(Pose2(x, y, heading))
     stage.sightings.clear()  # the way between them is broken
     return "the robot was carried elsewhere"
