@@ -188,14 +188,17 @@ export function App() {
     setWelcome(false);
   };
 
-  // A zone is only drawn: what is selected may just be the last wall. Other styles change what is selected, too.
+  // A zone is only drawn: what is selected may just be the last wall. Other styles change what is selected, too,
+  // unless a pen is in hand: then they are for the next mark.
   const setPen = (next: Style) => {
     setStyle(next);
     choose("none");
     const pen = PEN[next];
     const { selectedElementIds, activeTool } = editor?.getAppState() ?? {};
-    const selected = pen ? {} : (selectedElementIds ?? {});
+    const selected = pen || activeTool?.type !== "selection" ? {} : (selectedElementIds ?? {});
     const all = elements().map((one) => (selected[one.id] && STYLES.some((style) => style === roleOf(one)) ? recolored(one, next) : one));
+    const count = all.filter((one, k) => one !== elements()[k]).length;
+    if (count) tell(`${count === 1 ? "the selected mark is" : `${count} selected marks are`} now ${next}, and so is what you draw next`);
     editor?.updateScene({ elements: all, appState: { currentItemStrokeColor: COLOR[next] }, captureUpdate: CaptureUpdateAction.IMMEDIATELY });
     if (pen) editor?.setActiveTool({ type: pen, locked: true });
     else if (activeTool?.type === "selection" && Object.keys(selected).length === 0) editor?.setActiveTool({ type: "freedraw" });

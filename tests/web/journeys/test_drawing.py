@@ -179,6 +179,18 @@ def test_a_measure_gives_the_sizes_of_rooms(sheet: Sheet, folder: Path) -> None:
     assert 'data-metres-per-unit="0.02000"' in text
 
 
+def test_a_style_is_for_what_is_selected_or_else_for_the_next_mark(sheet: Sheet, folder: Path) -> None:
+    sheet.focus()
+    sheet.page.keyboard.press("r")
+    sheet.drag((300, 200), (600, 400))
+    sheet.tool("furniture")
+    expect(sheet.page.get_by_text("the selected mark is now furniture")).to_be_visible(timeout=PATIENCE_MS)
+    assert 1 == saved(sheet, folder).read_text().count('class="furniture"')
+    sheet.page.keyboard.press("r")
+    sheet.tool("ignore")
+    assert 1 == saved(sheet, folder).read_text().count('class="furniture"')
+
+
 def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
     plan = tmp_path / "plan.dxf"
     plan.write_text(TWO_ROOMS)
