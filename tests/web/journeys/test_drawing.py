@@ -183,6 +183,7 @@ def test_a_style_is_for_what_is_selected_or_else_for_the_next_mark(sheet: Sheet,
     sheet.focus()
     sheet.page.keyboard.press("r")
     sheet.drag((300, 200), (600, 400))
+    expect(sheet.page.get_by_test_id("toolbar-selection")).to_be_checked(timeout=PATIENCE_MS)
     sheet.tool("furniture")
     expect(sheet.page.get_by_text("the selected mark is now furniture")).to_be_visible(timeout=PATIENCE_MS)
     assert 1 == saved(sheet, folder).read_text().count('class="furniture"')
