@@ -64,7 +64,7 @@ export function App() {
 
   const tell = useCallback((text: string) => setNotice(text), []);
   useEffect(() => {
-    if (!notice) return;
+    if (!notice || notice.endsWith("...")) return; // what is being done is told until it is done
     const timer = setTimeout(() => setNotice(""), NOTICE_MS);
     return () => clearTimeout(timer);
   }, [notice]);
@@ -109,8 +109,10 @@ export function App() {
   }, [editor]);
 
   const watch = useCallback((file: File) => {
+    tell(`reading ${file.name} ...`);
     sendRecording(file).then(
       (recording) => {
+        tell("");
         setChoice((before) => ({ ...before, recording, world: "" }));
         leave();
         setDriving(true);

@@ -30,12 +30,13 @@ export function useOpening({ save, whole, show, tell, watch, leave, begin }: She
   const from = useRef<Origin | null>(null);
 
   const openBlob = useCallback(async (name: string, content: Blob, title: string, origin?: Origin) => {
+    tell(`reading ${title} ...`);
     const opened = await openContent(name, content);
     leave();
     show(opened);
     from.current = opened.svg === null ? null : (origin ?? { content: { media: SVG, text: opened.svg } });
     save.adopt({ name: "", base: stem(title), tag: null }, whole());
-    if (opened.notes.length) tell(opened.notes.join("; "));
+    tell(opened.notes.join("; "));
   }, [save, show, tell, leave, whole]);
 
   const openNamed = useCallback(async (name: string) => {

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image, ImageDraw
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 import pilotage
 from web_page import PATIENCE_MS, Sheet
@@ -183,7 +183,8 @@ def test_a_style_is_for_what_is_selected_or_else_for_the_next_mark(sheet: Sheet,
     sheet.focus()
     sheet.page.keyboard.press("r")
     sheet.drag((300, 200), (600, 400))
-    expect(sheet.page.get_by_test_id("toolbar-selection")).to_be_checked(timeout=PATIENCE_MS)
+    sheet.page.keyboard.press("1")
+    sheet.page.mouse.click(300, 300)
     sheet.tool("furniture")
     expect(sheet.page.get_by_text("the selected mark is now furniture")).to_be_visible(timeout=PATIENCE_MS)
     assert 1 == saved(sheet, folder).read_text().count('class="furniture"')
@@ -195,8 +196,17 @@ def test_a_style_is_for_what_is_selected_or_else_for_the_next_mark(sheet: Sheet,
 def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
     plan = tmp_path / "plan.dxf"
     plan.write_text(TWO_ROOMS)
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        held.append(route)
+
+    sheet.page.route("**/api/uploads*", hold, times=1)
     sheet.page.get_by_test_id("file-input").set_input_files(plan)
 
+    expect(sheet.page.get_by_role("alert")).to_contain_text("reading plan.dxf ...", timeout=PATIENCE_MS)
+    held[0].continue_()
+    expect(sheet.page.get_by_role("alert")).to_contain_text("taken for walls", timeout=PATIENCE_MS)
     expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)
     sheet.shot("dxf")
 
