@@ -15,7 +15,7 @@ import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
 import { canBeName, saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
-import { COLOR, goalOf, newGoal, newMeasure, newStart, PEN, recolored, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
+import { COLOR, goalOf, newGoal, newMeasure, newStart, newStroke, PEN, recolored, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Toolbar } from "./Toolbar";
 import { ToolLayer, TOOLS, type Tool } from "./Tools";
@@ -157,6 +157,8 @@ export function App() {
       if (!found) return tell("there is no wall here to cut a door into");
       const { door, moved } = found;
       put(cutDoor(moved.reduce(closeGap, [...elements()]), door));
+    } else if (tool === "line" && !isClick) {
+      put([...elements(), newStroke([from, to], { strokeColor: COLOR[PEN[style] ? "wall" : style] })]);
     } else if (tool === "goal") {
       put([...elements().filter((one) => roleOf(one) !== "goal"), newGoal(to, GOAL_SIZE)]);
       setGoalName("");
@@ -313,7 +315,7 @@ export function App() {
           {tool !== "none" && (
             <ToolLayer
               tool={tool} view={view} hover={hover} leave={() => choose("none")} use={useTool}
-              preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : tool === "start" || tool === "measure" ? [from, to] : [])}
+              preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : tool === "line" || tool === "start" || tool === "measure" ? [from, to] : [])}
             />
           )}
           <Toolbar tool={tool} choose={choose} style={style} setPen={setPen} />

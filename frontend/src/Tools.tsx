@@ -3,9 +3,10 @@ import { useEffect, useRef, useState } from "react";
 import { toScene, type View } from "./Overlay";
 import type { Point } from "./types";
 
-export type Tool = "none" | "door" | "goal" | "start" | "measure" | "route";
+export type Tool = "none" | "line" | "door" | "goal" | "start" | "measure" | "route";
 
 export const TOOLS: { tool: Tool; text: string; sign: string; hint: string }[] = [
+  { tool: "line", text: "Line", sign: "line", hint: "Drag a straight line. By keyboard: Enter, arrow keys, Enter." },
   { tool: "door", text: "Door", sign: "door", hint: "Click a wall to cut a door. Drag a door to move it, its end to widen it." },
   { tool: "goal", text: "Goal", sign: "goal", hint: "Click where the robot shall go." },
   { tool: "start", text: "Start", sign: "start", hint: "Press where the robot starts and drag to where it looks." },
@@ -14,6 +15,7 @@ export const TOOLS: { tool: Tool; text: string; sign: string; hint: string }[] =
 ];
 
 const SIGNS: Record<string, string> = {
+  line: "M4 20L20 4M2.5 20h3M18.5 4h3",
   door: "M3 20V5h5M16 5h5v15M8 20V5l7 3v15z",
   goal: "M6 22V3l12 4-12 5",
   start: "M4 20L20 4M20 4h-8M20 4v8",
@@ -45,7 +47,7 @@ export function ToolLayer({ tool, view, preview, use, hover, leave }: Props) {
   const layer = useRef<HTMLDivElement>(null);
   const from = useRef<Point | null>(null);
   const [cross, setCross] = useState<Point | null>(null);
-  const needsTwo = tool === "start" || tool === "measure";
+  const needsTwo = tool === "line" || tool === "start" || tool === "measure";
 
   // Keys go to the layer as long as it is there, and then back to where they went before.
   useEffect(() => {

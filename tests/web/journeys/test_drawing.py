@@ -193,6 +193,16 @@ def test_a_style_is_for_what_is_selected_or_else_for_the_next_mark(sheet: Sheet,
     assert 1 == saved(sheet, folder).read_text().count('class="furniture"')
 
 
+def test_a_room_is_drawn_by_keyboard_alone(sheet: Sheet) -> None:
+    sheet.page.get_by_role("button", name="Line", exact=True).focus()
+    sheet.page.keyboard.press("Enter")
+    for key in ("ArrowRight", "ArrowDown", "ArrowLeft", "ArrowUp"):
+        for press in ("Enter", *4 * (f"Shift+{key}",), "Enter"):
+            sheet.page.keyboard.press(press)
+
+    expect(sheet.summary).to_contain_text("1 cell,", timeout=PATIENCE_MS)
+
+
 def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
     plan = tmp_path / "plan.dxf"
     plan.write_text(TWO_ROOMS)
