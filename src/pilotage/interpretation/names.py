@@ -114,6 +114,9 @@ PLACES = frozenset(
 NUMBERED = frozenset(("bed", "beds", "cabinet"))
 """With a number, or among rooms, these are rooms, too: bedrooms, and doctors' rooms."""
 
+SHARED = PLACES | NUMBERED
+"""Words that rooms share with the things in them."""
+
 HEADS = (
     *("wand", "wände", "waende", "mauer", "tür", "türen", "tuer", "tueren", "fenster", "treppe", "treppen"),
     *("schrank", "schränke", "schraenke", "regal", "regale", "tisch", "tische", "stuhl", "stühle", "stuehle"),
@@ -189,7 +192,7 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
         among_rooms = is_room(below[-1:]) if below else holds_rooms(above)
         for word, following in pairwise([*words, ""]):
             role = meaning_of(word)
-            is_place = following in SPACES or (among_rooms and word in PLACES | NUMBERED)
+            is_place = following in SPACES or (among_rooms and word in SHARED)
             if role is Role.FURNITURE and is_place:
                 continue
             if role is not None and not (of_room and word in EDGES):
@@ -234,6 +237,8 @@ def thing_called(label: str) -> str:
 
     >>> [thing_called(label) for label in ("Coffee table", "Door 2", "Toilet", "Bed 2", "Bed room")]
     ['Coffee table', 'Door 2', '', '', '']
+    >>> [thing_called(label) for label in ("Filing cabinet", "Cabinet 2", "Lavabo")]
+    ['Filing cabinet', '', '']
     """
     *_, head = name_words(re.sub(r"\(.*?\)", " ", label)) or [""]
     is_room = head in PLACES or (head in NUMBERED and any(map(str.isdecimal, label)))
