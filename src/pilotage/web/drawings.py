@@ -1,6 +1,7 @@
 """Read a drawing that a page sent, and tell a drawing to a page; both in a worker."""
 
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -107,9 +108,7 @@ def describe_drawing(sketch: SchematicMap) -> Json:
     page = Page(sketch)
     return {
         "bounds": page.bounds,
-        "strokes": [
-            {"points": page.points(stroke.vertices), "closed": stroke.closed} for stroke in sketch.strokes
-        ],
+        "strokes": strokes_of(page, sketch.strokes),
         "labels": labels_of(sketch),
         "zones": {
             name: [page.points(line.vertices) for line in lines]
@@ -118,6 +117,11 @@ def describe_drawing(sketch: SchematicMap) -> Json:
         "start": page.point(sketch.start),
         "goal": page.point(sketch.goal),
     }
+
+
+def strokes_of(page: Page, lines: Sequence[Polyline]) -> list[Json]:
+    """List lines, and whether they are closed."""
+    return [{"points": page.points(line.vertices), "closed": line.closed} for line in lines]
 
 
 def labels_of(sketch: SchematicMap) -> list[Json]:
@@ -139,10 +143,9 @@ def read_upload(sent: Sent) -> Json:
     if len(furniture) > MOST_FURNITURE:
         notes.append(f"the furniture is left out: it has {len(furniture)} lines, more than {MOST_FURNITURE}")
         furniture = []
-    page = Page(sketch)
     return {
         **describe_drawing(sketch),
-        "furniture": [{"points": page.points(line.vertices), "closed": line.closed} for line in furniture],
+        "furniture": strokes_of(Page(sketch), furniture),
         "metres_per_unit": sketch.metres_per_unit,
         "svg": svg_of(sketch),
         "notes": notes,
@@ -156,10 +159,11 @@ def furniture_of(drawing: "Drawing") -> list[Polyline]:
         return []
     left, bottom, right, top = drawing.sketch.bounds
     meanings = zip(found.sheet.marks, found.meanings, strict=True)
-    lines = [line for mark, meaning in meanings if meaning.role is Role.FURNITURE for line in mark.outlines]
     return [
         line
-        for line in lines
+        for mark, meaning in meanings
+        if meaning.role is Role.FURNITURE
+        for line in mark.outlines
         if ((left, bottom) <= line.vertices).all() and (line.vertices <= (right, top)).all()
     ]
 
