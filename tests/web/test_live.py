@@ -203,7 +203,7 @@ def test_a_drive_is_begun_again_as_it_was_ordered_and_ends_when_it_is_left(clien
     ("first", "words"),
     [
         ({"type": "restart", "session": "gone"}, "no longer there"),
-        ({"type": "pause"}, "start or resume"),
+        ({"type": "pause"}, "start, resume or restart"),
         ({"type": "resume", "session": "gone"}, "no longer there"),
         ({"type": "resume"}, "session must be a text"),
         ({"type": "start", "drawing": "../secret.svg", **REAL}, "stay in the folder"),

@@ -30,6 +30,7 @@ PERSON_SPEED = 0.7
 """Speed [m/s] of someone who gets into the way."""
 EDGE = 0.1
 """So far [m] beyond the outermost wall a click still means the wall."""
+OUTSIDE = "that is outside of the building"
 
 Message = Mapping[str, object]
 
@@ -43,7 +44,7 @@ def kidnap(stage: Stage, message: Message) -> str:
         raise OrderError("the robot cannot stand there, a wall or a thing is in the way")
     here = stage.simulator.world_from_base
     if not is_in_building(world, (x, y), (here.x, here.y), radius):
-        raise OrderError("that is outside of the building")
+        raise OrderError(OUTSIDE)
     stage.simulator.carry(Pose2(x, y, heading))
     stage.sightings.clear()  # the way between them is broken
     return "the robot was carried elsewhere"
@@ -99,11 +100,11 @@ def world_point(message: Message) -> tuple[float, float]:
 
 
 def point_within(world: World, message: Message) -> tuple[float, float]:
-    """Read a point that is not outside of all that the world holds."""
+    """Read a point [m] within the outermost walls of the world; OrderError if it is not."""
     x, y = world_point(message)
     left, bottom, right, top = world.bounds
     if not (left - EDGE <= x <= right + EDGE and bottom - EDGE <= y <= top + EDGE):
-        raise OrderError("that is outside of the building")
+        raise OrderError(OUTSIDE)
     return x, y
 
 

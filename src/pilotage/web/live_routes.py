@@ -75,11 +75,11 @@ async def first_message(websocket: WebSocket) -> Session | None:
 
 
 async def find_session(message: Message, table: Table) -> Session:
-    """Start a drive, also by an old order, or go back to one; raises what `read_order` and `begin` do."""
+    """Start a drive, go back to one, or start it anew; OrderError or what `read_order` and `begin` raise."""
     if message.get("type") == "start":
         return await table.sessions.begin(read_order(message, table))
     if message.get("type") not in ("resume", "restart"):
-        raise OrderError("the first message must be start or resume, or restart")
+        raise OrderError("the first message must be start, resume or restart")
     session = table.sessions.get(orders.text(message, "session"))
     if session is None:
         raise OrderError("this drive is no longer there")
