@@ -2,7 +2,7 @@
 import { CaptureUpdateAction, Excalidraw, restoreElements } from "@excalidraw/excalidraw";
 import type { AppState, BinaryFileData, ExcalidrawImperativeAPI } from "@excalidraw/excalidraw/types";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { isAmong, listDrawings, sendRecording, SVG } from "./api";
+import { ApiError, loadDrawing, sendRecording, SVG } from "./api";
 import { cellAt, describeCell } from "./cells";
 import { Dialog, MeasureDialog } from "./Dialog";
 import { closeGap, cutDoor, doorFor, doorWidth, type Gap } from "./doors";
@@ -13,12 +13,12 @@ import { AT_FIRST, OFFERED } from "./editor";
 import type { Fate } from "./fate";
 import { RobotControls } from "./RobotControls";
 import { FileMenu, NameField, Welcome } from "./Files";
-import { canBeName, saveFile, stem } from "./disk";
+import { saveFile, stem } from "./disk";
 import { Findings, Overlay, toScene, type View } from "./Overlay";
 import { COLOR, goalOf, newGoal, newMeasure, newStart, newStroke, PEN, recolored, roleOf, scaleOf, startOf, STYLES, STYLE_HINT, type Element, type Style } from "./scene";
 import { drawingToSvg, sceneText } from "./svg";
 import { Toolbar } from "./Toolbar";
-import { ToolLayer, TOOLS, type Tool } from "./Tools";
+import { ToolLayer, TOOLS, TWO_POINTS, type Tool } from "./Tools";
 import type { Mend, Point } from "./types";
 import { useAutosave } from "./useAutosave";
 import { useDrive, type Order } from "./useDrive";
@@ -45,7 +45,7 @@ export function App() {
   const [goalName, setGoalName] = useState("");
   const [fate, setFate] = useState<Fate>("none");
   const [welcome, setWelcome] = useState(!location.hash.includes("drawing="));
-  const [notice, setNotice] = useState("");
+  const [notice, setNotice] = useState({ text: "", stays: false });
   const version = useRef(0);
   const layDown = useRef(() => {});
   const otherwise = useRef<Order | null>(null); // tried if a recording does not go with the file that is open
@@ -62,12 +62,12 @@ export function App() {
   useEditorKeys(!watching);
   const { told, error } = useUnderstanding(plain, save.document.name, revision, routeEnds);
 
-  const tell = useCallback((text: string) => setNotice(text), []);
+  const tell = useCallback((text: string, stays = false) => setNotice({ text, stays }), []); // until something else is told, or for a while
   useEffect(() => {
-    if (!notice || notice.endsWith("...")) return; // what is being done is told until it is done
-    const timer = setTimeout(() => setNotice(""), NOTICE_MS);
+    if (!notice.text || notice.stays) return;
+    const timer = setTimeout(() => tell(""), NOTICE_MS);
     return () => clearTimeout(timer);
-  }, [notice]);
+  }, [notice, tell]);
 
   // The address remembers drawing and drive, so that a reload goes on with both.
   const session = drive?.session?.session;
@@ -109,7 +109,7 @@ export function App() {
   }, [editor]);
 
   const watch = useCallback((file: File) => {
-    tell(`reading ${file.name} ...`);
+    tell(`reading ${file.name} ...`, true);
     sendRecording(file).then(
       (recording) => {
         tell("");
@@ -174,11 +174,10 @@ export function App() {
     }
   };
 
-  const hover = setPointed;
   const hovered = useMemo(() => (pointed ? cellAt(told, pointed) : undefined), [told, pointed]);
   const point = (event: React.PointerEvent) => { // a finger points where it taps
     const box = event.currentTarget.getBoundingClientRect();
-    if (tool === "none") hover(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
+    if (tool === "none") setPointed(toScene(view, [event.clientX - box.left, event.clientY - box.top]));
   };
   const choose = (next: Tool) => {
     setTool(next);
@@ -253,10 +252,12 @@ export function App() {
   };
 
   const rename = (name: string) => {
-    if (!canBeName(name)) return tell(`a drawing cannot be called ${name}`);
-    listDrawings().then(
-      (all) => (isAmong(all, name) ? tell(`there is a drawing ${name} already: choose another name`) : save.adopt({ name, base: stem(name), tag: null }, null)),
-      (problem: unknown) => tell(String(problem)),
+    loadDrawing(name).then(
+      () => tell(`there is a drawing ${name} already: choose another name`),
+      (problem: ApiError) => {
+        if (problem.status === 404) save.adopt({ name, base: stem(name), tag: null }, null);
+        else tell(`a drawing cannot be called ${name}: ${problem.message}`);
+      },
     );
   };
   const keepCopy = () => save.adopt({ ...save.document, name: "", tag: null }, null);
@@ -299,7 +300,7 @@ export function App() {
           className="sheet-area" hidden={watching}
           onPointerMove={point}
           onPointerDown={point}
-          onPointerLeave={(event) => event.pointerType !== "touch" && hover(null)}
+          onPointerLeave={(event) => event.pointerType !== "touch" && setPointed(null)}
           onClick={(event) => (event.target as HTMLElement).closest('[data-testid="toolbar-selection"]') && choose("none")}
         >
           <Excalidraw
@@ -314,8 +315,8 @@ export function App() {
           <Overlay told={told} view={view} hovered={hovered?.id ?? ""} goal={goalOf(elements())} ends={ends} preview={preview} mend={mend} />
           {tool !== "none" && (
             <ToolLayer
-              tool={tool} view={view} hover={hover} leave={() => choose("none")} use={useTool}
-              preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : tool === "line" || tool === "start" || tool === "measure" ? [from, to] : [])}
+              tool={tool} view={view} hover={setPointed} leave={() => choose("none")} use={useTool}
+              preview={(from, to) => setPreview(tool === "door" ? (doorOf(from, to, false)?.door ?? []) : TWO_POINTS.includes(tool) ? [from, to] : [])}
             />
           )}
           <Toolbar tool={tool} choose={choose} style={style} setPen={setPen} />
@@ -354,7 +355,7 @@ export function App() {
           <button onClick={showOther}>Keep mine as a copy, and show the other version</button>
         </Dialog>
       )}
-      {notice && <div className="notice" role="alert">{notice} <button aria-label="Close this notice" onClick={() => setNotice("")}>x</button></div>}
+      {notice.text && <div className="notice" role="alert">{notice.text} <button aria-label="Close this notice" onClick={() => tell("")}>x</button></div>}
     </div>
   );
 }

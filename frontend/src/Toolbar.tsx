@@ -8,7 +8,7 @@ export function Toolbar({ tool, choose, style, setPen }: Props) {
   return (
     <div className="own-tools" role="toolbar" aria-label="Tools of the drawing table">
       {TOOLS.map((one) => (
-        <button key={one.tool} className={one.tool} aria-pressed={tool === one.tool} title={one.hint} onClick={() => choose(tool === one.tool ? "none" : one.tool)}>
+        <button key={one.tool} data-tool={one.tool} aria-pressed={tool === one.tool} title={one.hint} onClick={() => choose(tool === one.tool ? "none" : one.tool)}>
           <Sign name={one.sign} />
           <span>{one.text}</span>
         </button>

@@ -14,6 +14,9 @@ export const TOOLS: { tool: Tool; text: string; sign: string; hint: string }[] =
   { tool: "route", text: "Route", sign: "route", hint: "Click two places to see the way between them." },
 ];
 
+/** Tools that are pressed at one point and dragged to another. */
+export const TWO_POINTS: readonly Tool[] = ["line", "start", "measure"];
+
 const SIGNS: Record<string, string> = {
   line: "M4 20L20 4M2.5 20h3M18.5 4h3",
   door: "M3 20V5h5M16 5h5v15M8 20V5l7 3v15z",
@@ -47,7 +50,6 @@ export function ToolLayer({ tool, view, preview, use, hover, leave }: Props) {
   const layer = useRef<HTMLDivElement>(null);
   const from = useRef<Point | null>(null);
   const [cross, setCross] = useState<Point | null>(null);
-  const needsTwo = tool === "line" || tool === "start" || tool === "measure";
 
   // Keys go to the layer as long as it is there, and then back to where they went before.
   useEffect(() => {
@@ -81,7 +83,7 @@ export function ToolLayer({ tool, view, preview, use, hover, leave }: Props) {
       event.preventDefault();
       const point = toScene(view, [x, y]);
       setCross([x, y]);
-      if (needsTwo && !from.current) from.current = point;
+      if (TWO_POINTS.includes(tool) && !from.current) from.current = point;
       else {
         from.current ??= point;
         finish(point);

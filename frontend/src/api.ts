@@ -25,7 +25,12 @@ async function ask(path: string, init?: RequestInit): Promise<Response> {
   throw new ApiError(told?.error ?? `the server answers ${answer.status}`, answer.status);
 }
 
-const path = (name: string) => name.split("/").map(encodeURIComponent).join("/");
+function path(name: string): string {
+  const parts = name.split("/");
+  if (parts.includes("..") || parts.includes(".")) throw new ApiError("a name must stay in the folder", 400); // an address cannot hold these
+  return parts.map(encodeURIComponent).join("/");
+}
+
 const tagOf = (answer: Response) => (answer.headers.get("ETag") ?? "").replaceAll('"', "");
 
 export interface Listed {
@@ -37,9 +42,6 @@ export interface Listed {
 export async function listDrawings(): Promise<Listed[]> {
   return (await (await ask("/api/drawings")).json()).drawings;
 }
-
-/** Whether a name is taken; some disks do not tell large letters from small ones. */
-export const isAmong = (listed: Listed[], name: string) => listed.some((one) => one.name.toLowerCase() === name.toLowerCase());
 
 export async function listExamples(): Promise<Listed[]> {
   return (await (await ask("/api/examples")).json()).examples;

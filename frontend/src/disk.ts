@@ -23,8 +23,3 @@ export function saveFile(name: string, content: Blob): void {
 }
 
 export const stem = (name: string) => (name.split("/").at(-1) ?? "").replace(/\.[a-z0-9]+$/i, "").replace(/-\d+$/, "") || "drawing";
-
-const LONGEST_NAME = 200;
-
-/** Whether the server takes this as the name of a drawing: it stays in the folder and is not hidden. */
-export const canBeName = (name: string) => name.length <= LONGEST_NAME && !/(^|\/)\.|^\/|\\/.test(name);

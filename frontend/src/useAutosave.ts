@@ -1,6 +1,6 @@
 // Saves the drawing a moment after each change, each time as the successor of the version last seen.
 import { useCallback, useEffect, useRef, useState } from "react";
-import { ApiError, isAmong, listDrawings, saveDrawing } from "./api";
+import { ApiError, listDrawings, saveDrawing } from "./api";
 
 const PAUSE_MS = 700; // without a change, before it is saved
 const LONGEST_MS = 1500; // that a change waits while one draws on
@@ -95,10 +95,10 @@ export function useAutosave(content: () => string, revision: number): Autosave {
 }
 
 async function freeName(base: string): Promise<string> {
-  const taken = await listDrawings();
+  const taken = (await listDrawings()).map((one) => one.name.toLowerCase()); // some disks do not tell large letters from small ones
   for (let k = 1; k < 1000; k++) {
     const name = `${base}${k > 1 ? `-${k}` : ""}.svg`;
-    if (!isAmong(taken, name)) return name;
+    if (!taken.includes(name.toLowerCase())) return name;
   }
   throw new ApiError(`there are too many drawings called ${base}`, 0);
 }

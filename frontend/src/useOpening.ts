@@ -14,7 +14,7 @@ interface Sheet {
   save: Autosave;
   whole: () => string; // the present drawing as text
   show: (scene: Scene) => void;
-  tell: (text: string) => void;
+  tell: (text: string, stays?: boolean) => void;
   watch: (file: File) => void;
   leave: () => void; // the drive that is shown in place of the sheet
   begin: () => void; // drawing on an empty sheet
@@ -30,7 +30,7 @@ export function useOpening({ save, whole, show, tell, watch, leave, begin }: She
   const from = useRef<Origin | null>(null);
 
   const openBlob = useCallback(async (name: string, content: Blob, title: string, origin?: Origin) => {
-    tell(`reading ${title} ...`);
+    tell(`reading ${title} ...`, true);
     const opened = await openContent(name, content);
     leave();
     show(opened);
@@ -39,13 +39,16 @@ export function useOpening({ save, whole, show, tell, watch, leave, begin }: She
     tell(opened.notes.join("; "));
   }, [save, show, tell, leave, whole]);
 
-  const openNamed = useCallback(async (name: string) => {
+  const openNamed = useCallback(async (name: string, isOpened = () => {}) => {
+    tell(`reading ${name} ...`, true);
     const { text, tag } = await loadDrawing(name);
-    show(await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }), name));
+    const opened = await openContent(name.split("/").at(-1)!, new Blob([text], { type: "text/plain" }), name);
+    isOpened();
+    show(opened);
     const own = text.includes("drawing-table-scene");
     from.current = own ? null : { drawing: name };
     save.adopt(own ? { name, base: stem(name), tag } : { name: "", base: stem(name), tag: null }, whole());
-    if (!own) tell(`${name} stays as it is; what you change is saved as a copy`);
+    tell(own ? "" : `${name} stays as it is; what you change is saved as a copy`);
   }, [save, show, tell, whole]);
 
   const guarded = useCallback((action: () => Promise<void>) => {
@@ -56,10 +59,7 @@ export function useOpening({ save, whole, show, tell, watch, leave, begin }: She
   }, [save, tell]);
 
   const opening: Opening = {
-    openDrawing: (name) => guarded(() => {
-      leave();
-      return openNamed(name);
-    }),
+    openDrawing: (name) => guarded(() => openNamed(name, leave)),
     openExample: (name) => guarded(async () => openBlob("example.svg", new Blob([await loadExample(name)], { type: SVG }), name, { drawing: `example:${name}` })),
     openFile: (file) => (isRecording(file.name) ? watch(file) : guarded(async () => openBlob(file.name, file, file.name, await originOf(file)))),
     openEmpty: () => guarded(async () => {

@@ -2,6 +2,7 @@
 
 import re
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -129,7 +130,7 @@ def test_a_door_closed_in_mid_drive_leads_to_a_detour_and_a_reload_goes_on(sheet
     expect(sheet.summary).to_contain_text("2 cells, 2 openings", timeout=PATIENCE_MS)
 
 
-def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet) -> None:
+def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet, folder: Path) -> None:
     page = sheet.page
     sheet.draw_flat()
     page.get_by_role("button", name="Drive", exact=True).click()
@@ -160,10 +161,18 @@ def test_a_drive_begins_again_in_the_same_building_after_a_reload(sheet: Sheet) 
     refusal = page.get_by_text("a box cannot stand where the robot is")
     expect(refusal).to_be_visible(timeout=PATIENCE_MS)
     expect(refusal).to_be_hidden(timeout=PATIENCE_MS)
-    page.get_by_role("button", name="File").click()
-    page.get_by_role("button", name="home, careful").click()
+    (folder / "broken.svg").write_text("<svg")
+    open_from_menu(page, "broken.svg")
+    expect(page.get_by_role("alert")).to_contain_text("must be well-formed XML", timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("probability")).to_be_visible()
+    open_from_menu(page, "home, careful")
     expect(sheet.summary).to_contain_text("9 cells", timeout=PATIENCE_MS)
     sheet.shot("opened-in-a-drive")
+
+
+def open_from_menu(page: Page, name: str) -> None:
+    page.get_by_role("button", name="File").click()
+    page.get_by_role("button", name=name).click()
 
 
 def test_a_drive_is_ordered_paused_and_interfered_with_by_keyboard_alone(sheet: Sheet) -> None:
