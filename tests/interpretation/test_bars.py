@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flats import BLACK, OUTSIDE, RED, WHITE, box, graph_of, stroke
+from flats import BLACK, OUTSIDE, RED, WHITE, arc, box, graph_of, stroke
 from pilotage.interpretation import Pen, Role, Sheet, Text, interpret
 
 TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
@@ -91,6 +91,15 @@ def test_one_bar_is_a_door_if_it_is_called_so():
     assert 1 == number_of_doors((OUTSIDE, wall, stroke(*bar, names=("door-bath",))))
     assert not number_of_doors((OUTSIDE, wall, stroke(*bar)))
     assert not number_of_doors((OUTSIDE, wall, stroke((0, 30), (0, 42), names=("door",))))
+
+
+@pytest.mark.parametrize(
+    ("line", "doors"), [(((50, 30), (50, 42)), 2), (((44, 36), (56, 36)), 2), (((50, 36), (62, 36)), 1)]
+)
+def test_a_bar_that_is_called_a_door_is_one_beside_a_door_with_an_arc_and_a_leaf_alone_is_none(line, doors):
+    hung = (stroke((25, 30), (37, 30)), arc((25, 30), 12, 0, 90))
+
+    assert doors == number_of_doors((OUTSIDE, *WALLS[:2], *hung, stroke(*line, names=("doors",))))
 
 
 def test_what_a_person_calls_a_door_opens_its_wall():

@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ import shapely
 
 from pilotage.geometry import Array, Polyline
 from pilotage.interpretation.dashed import dashed_among
+from pilotage.interpretation.doors import Door, without_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.pieces import on_grid
 from pilotage.interpretation.segments import Segments, segments_of
@@ -71,7 +72,9 @@ class Bar:
         return np.array([-along[1], along[0]])
 
 
-def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diagonal: float) -> list[Bar]:
+def find_bars(
+    sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diagonal: float, *, only_named: bool = False
+) -> list[Bar]:
     """Find the bars and squares that mark doors: alike, on walls, each between two rooms that are closed.
 
     A line may lie along its wall, or stand upright on it or across it with its other ends free.
@@ -81,6 +84,8 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
     """
     shapes: dict[object, list[int]] = defaultdict(list)
     for place, mark in enumerate(seen):
+        if only_named and mark.number not in named:
+            continue
         drawn = sheet.marks[mark.number]
         shapes[drawn.pen, drawn.fill, mark.number in named].append(place)
     dashed = dashed_among(sheet, seen)
@@ -96,6 +101,22 @@ def find_bars(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], diago
         if len(parting) >= (1 if least == 1 else max(PARTING, MOST * len(places))):
             found.extend(parting.values())
     return found
+
+
+def find_bars_beside(
+    sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], doors: Sequence[Door], diagonal: float
+) -> list[Bar]:
+    """Find the bars that are named doors, where other doors have arcs: along a wall or across it.
+
+    A line that but stands on a wall is the leaf of a door.
+    """
+    left = without_doors(seen, doors)
+    spent = {mark.number for mark, other in zip(seen, left, strict=True) if mark is not other} & named
+    places = [place for place, mark in enumerate(seen) if mark.number not in spent]
+    if not named - spent:
+        return []
+    bars = find_bars(sheet, [seen[place] for place in places], named - spent, diagonal, only_named=True)
+    return [replace(bar, place=places[bar.place]) for bar in bars if len(bar.tips) != 1]
 
 
 def find_fronts(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import shapely
 
 from pilotage.interpretation.areas import find_areas
-from pilotage.interpretation.bars import Bar, find_bars, find_fronts, without_bars
+from pilotage.interpretation.bars import Bar, find_bars, find_bars_beside, find_fronts, without_bars
 from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import Door, find_doors, without_doors
@@ -70,7 +70,10 @@ def take_apart(view: View) -> Parts:
     roles = {number: role for number, (role, _) in view.guessed.items()}
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
     patched = find_patched(sheet, view.drawn, built, ground, diagonal)
-    bars = [] if doors else find_bars(sheet, built, called_doors | patched.keys(), diagonal)
+    if doors:
+        bars = find_bars_beside(sheet, built, called_doors, doors, diagonal)
+    else:
+        bars = find_bars(sheet, built, called_doors | patched.keys(), diagonal)
     fronts = [] if doors else find_fronts(sheet, built, called_doors, bars, diagonal)
     bridges = find_bridges(sheet, built, patched, diagonal)
     marked = {built[bar.place].number for bar in (*bars, *fronts)}
