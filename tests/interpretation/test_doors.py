@@ -141,9 +141,10 @@ def test_a_leaf_that_is_drawn_in_the_gap_of_its_wall_is_shut():
     assert are_joined((*walls, leaf, swing))
 
 
-def test_a_leaf_in_the_gap_of_a_line_is_shut_if_nothing_lies_beyond_the_open_door():
+@pytest.mark.parametrize("beyond", [(), (stroke((65, 0), (65, 80)),)])
+def test_a_leaf_in_the_gap_of_a_line_is_shut_if_nothing_or_a_wall_across_lies_beyond_the_open_door(beyond):
     leaf, swing = stroke((50, 30), (50, 42)), arc((50, 30), 12, 0, 90)
-    sketch = interpret(Sheet((*WITH_GAP, leaf, swing))).sketch
+    sketch = interpret(Sheet((*WITH_GAP, *beyond, leaf, swing))).sketch
 
     assert [sorted(line.vertices.round(3).tolist()) for line in sketch.doors] == [[[50, 30], [50, 42]]]
 

@@ -19,6 +19,9 @@ BEHIND = (0.03, 0.2)
 ALONGSIDE = (0.25, 0.75, 1.25)
 """It passes what lies between these shares of the leaf, and is longer than the last."""
 
+BEYOND = 0.25
+"""Where a wall is looked for beyond hinge and latch, as a share of the radius; it is longer than that."""
+
 Sides = tuple[Arc, NDArray[np.bool_], Array]
 """An arc, at which of its two ends a leaf lies (2,), and at how many sides of each spoke a wall is (2,)."""
 
@@ -39,8 +42,8 @@ def closings(judged: Sequence[Sides], segments: Segments) -> list[Array]:
 def is_shut(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segments) -> bool | None:
     """Tell whether the one leaf of a door is drawn in its wall; None if it is no matter, or may be both.
 
-    It is, too, if it fills a gap between two ends of a wall and nothing lies before or behind the open door.
-    One that leans on a wall stands open.
+    It is, too, if it fills a gap between two ends of a wall and nothing lies before or behind the open door,
+    or but what crosses its way, as the other side of a corridor does. One that leans on a wall stands open.
     """
     if arc.sweep < AJAR or leaves.sum() != 1:
         return None
@@ -52,7 +55,8 @@ def is_shut(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segment
         return None
     if through:
         return bool(walls[1 - leaf] < 2.0)
-    return bool(walls[leaf] == 2.0 and (across or walls[1 - leaf] == 0.0))
+    is_free = across or walls[1 - leaf] == 0.0
+    return bool(walls[leaf] == 2.0 and (is_free or fills(arc, leaf, segments)))
 
 
 def closing(arc: Arc, leaves: NDArray[np.bool_], walls: Array, segments: Segments, *, shut: bool) -> Array:
@@ -96,6 +100,21 @@ def offsets(arc: Arc, end: Array, segments: Segments, reach: float) -> Array:
     across = np.array([-along[1], along[0]])
     across = across if across @ inward > 0.0 else -across
     return np.asarray((segments.ends[near].mean(axis=1) - arc.center) @ across / arc.radius)
+
+
+def fills(arc: Arc, leaf: int, segments: Segments) -> bool:
+    """Tell whether a wall goes on beyond both ends of a leaf, and none along the other spoke."""
+    return goes_on(arc, arc.ends[leaf], segments) == 2 and not goes_on(arc, arc.ends[1 - leaf], segments)
+
+
+def goes_on(arc: Arc, end: Array, segments: Segments) -> int:
+    """Count at how many sides of the spoke to one end of an arc a wall goes on in its direction."""
+    along = (end - arc.center) / arc.radius
+    places = shapely.points([arc.center - BEYOND * arc.radius * along, end + BEYOND * arc.radius * along])
+    side, near = segments.tree.query(places, predicate="dwithin", distance=1.5 * SLACK * arc.radius)
+    steps, lengths = segments.ends[near, 1] - segments.ends[near, 0], segments.lengths[near]
+    turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0])
+    return len(np.unique(side[(turn <= SLACK * lengths) & (lengths > BEYOND * arc.radius)]))
 
 
 def leans(arc: Arc, end: Array, segments: Segments) -> bool:
