@@ -224,11 +224,17 @@ def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_aro
     assert Role.WALL is understood.meanings[-1].role
 
 
-@pytest.mark.parametrize("layer", ["PIPES", "cable-trays 2", "给排水管线"])
+@pytest.mark.parametrize("layer", ["PIPES", "cable-trays 2", "ELECTRICAL", "给排水管线"])
 def test_pipes_and_cables_are_no_walls(layer):
     sheet = Sheet((*WITH_GAP, stroke((20, 0), (20, 80), names=(layer,))))
 
     assert Role.IGNORE is interpret(sheet).meanings[-1].role
+
+
+def test_a_room_of_electricity_is_a_room():
+    rooms = [box(x, 0, x + 50, 80, pen=Pen(BLACK, 1.0), names=("electrical-room",)) for x in (0, 50)]
+
+    assert {Role.WALL} == {meaning.role for meaning in interpret(Sheet((*rooms, OUTSIDE))).meanings}
 
 
 @pytest.mark.parametrize("layer", ["A-FURN", "Möbel", "mobilier", "arredo"])

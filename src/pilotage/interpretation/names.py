@@ -47,7 +47,7 @@ VOCABULARY: Mapping[Role, str] = {
     " dør dører døre dörrar 门 ドア 扉 문",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
     " ventanas janela janelas raam ramen fönster ikkuna окно окна okno okna pencere pencereler ablak ablakok"
-    " prozor prozori vindu vindue vinduer 窗 窓 창문",
+    " prozor prozori vindu vindue vinduer 窗 窗户 窓 창문",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
     " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
@@ -79,6 +79,8 @@ VOCABULARY: Mapping[Role, str] = {
     " landscape landscaping contouring vegetation planting measurement measurements maße medidas misure"
     " maten beam beams joist joists träger traeger balken unterzug unterzüge unterzuege poutre poutres"
     " viga vigas trave travi balk overhang ceiling clng decke plafond soffitto hvac ducts elec elektro"
+    " electrical electric electricity électricité electricite elektrik electricidad elettrico elétrica"
+    " eletrica"
     " pipe pipes piping cable cables conduit conduits wiring sprinklers rohre leitungen kabel 管线 管道"
     " compass scalebar watermark logo arrow arrows pfeil pfeile flèche flèches freccia frecce flecha flechas"
     " eje ejes eixo eixos oś osie wymiar wymiary aks akslar ölçü olcu ölçüler olculer kóta kóty méretek"
@@ -107,6 +109,7 @@ PLACES = frozenset(
         *("toilet", "toilets", "shower", "lavabo", "lavabos"),
         *("sanitary", "sanitär", "sanitaires", "sanitarios"),
         *("equipment", "equip", "plumbing", "fittings", "plants", "people"),
+        *("electrical", "electricity", "hvac"),
     )
 )
 """Rooms are called by these words for what stands in them."""
@@ -193,7 +196,7 @@ def guessed_role(names: Sequence[str]) -> tuple[Role, str] | None:
         for word, following in pairwise([*words, ""]):
             role = meaning_of(word)
             is_place = following in SPACES or (among_rooms and word in SHARED)
-            if role is Role.FURNITURE and is_place:
+            if is_place and role in (Role.FURNITURE, Role.IGNORE):
                 continue
             if role is not None and not (of_room and word in EDGES):
                 return role, f"its name is {name!r}"
