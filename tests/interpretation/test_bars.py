@@ -150,3 +150,15 @@ def test_a_room_that_opens_to_the_outside_by_a_wide_named_door_alone_is_a_room(d
     found = [cell.label for cell in graph_of((*walls, door) if drawn else walls, words).cells]
 
     assert ("bath" in found) is drawn
+
+
+@pytest.mark.parametrize("drawn", [True, False])
+def test_a_gate_between_short_piers_closes_a_garage_beside_doors_with_arcs(drawn):
+    walls = [stroke((65, 0), (60, 0), (60, 80), (0, 80), (0, 0), (60, 0)), stroke((25, 0), (25, 80))]
+    walls += [stroke((95, 0), (100, 0), (100, 80), (60, 80))]
+    hung = (stroke((25, 30), (37, 30)), arc((25, 30), 12, 0, 90))
+    gate = (box(65, -1, 95, 1, pen=Pen(RED, 0.1), names=("doors",)),) if drawn else ()
+
+    found = [cell.label for cell in graph_of((*walls, *hung, *gate), [Text("cars", (80.0, 40.0), 3.0)]).cells]
+
+    assert ("cars" in found) is drawn

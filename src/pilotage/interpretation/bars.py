@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +11,6 @@ import shapely
 
 from pilotage.geometry import Array, Polyline
 from pilotage.interpretation.dashed import dashed_among
-from pilotage.interpretation.doors import Door, without_doors
 from pilotage.interpretation.paint import NOTHING, Seen, parts_of
 from pilotage.interpretation.pieces import on_grid
 from pilotage.interpretation.segments import Segments, segments_of
@@ -19,6 +18,9 @@ from pilotage.interpretation.sheet import Sheet, Text
 
 SIZES = (0.004, 0.12)
 """Least and largest length of a bar as a share of the drawing's diagonal."""
+
+GATE = 0.3
+"""And of one that is named a door and stands in a gap: that of a garage."""
 
 SLENDER = 0.25
 """A bar is at most so wide, as a share of its length."""
@@ -80,7 +82,7 @@ def find_bars(
     A line may lie along its wall, or stand upright on it or across it with its other ends free.
     Where walls have gaps for doors, what lies on both sides of them is one room: there are no such marks.
     Dashed lines part no rooms: outside of the walls they are the edge of a roof. One mark is enough if it is
-    among those named doors.
+    among those named doors. If only these may be doors, a line that but stands on a wall is a leaf.
     """
     shapes: dict[object, list[int]] = defaultdict(list)
     for place, mark in enumerate(seen):
@@ -99,40 +101,27 @@ def find_bars(
         others = [mark for mark in seen if mark.number not in own]
         parting = {bar.place: bar for bar in parting_bars(bars, others, least, diagonal)}
         if len(parting) >= (1 if least == 1 else max(PARTING, MOST * len(places))):
-            found.extend(parting.values())
+            found.extend(bar for bar in parting.values() if not only_named or len(bar.tips) != 1)
     return found
-
-
-def find_bars_beside(
-    sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], doors: Sequence[Door], diagonal: float
-) -> list[Bar]:
-    """Find the bars that are named doors, where other doors have arcs: along a wall or across it.
-
-    A line that but stands on a wall is the leaf of a door.
-    """
-    left = without_doors(seen, doors)
-    spent = {mark.number for mark, other in zip(seen, left, strict=True) if mark is not other} & named
-    places = [place for place, mark in enumerate(seen) if mark.number not in spent]
-    if not named - spent:
-        return []
-    bars = find_bars(sheet, [seen[place] for place in places], named - spent, diagonal, only_named=True)
-    return [replace(bar, place=places[bar.place]) for bar in bars if len(bar.tips) != 1]
 
 
 def find_fronts(
     sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], bars: Sequence[Bar], diagonal: float
 ) -> list[Bar]:
-    """Find the bars that are named doors, stand in a gap of a wall and part no two rooms: front doors."""
+    """Find the bars that are named doors, stand in a gap of a wall and part no two rooms, as front doors."""
     known = {bar.place for bar in bars}
     places = [place for place, mark in enumerate(seen) if mark.number in named and place not in known]
     if not places:
         return []
     segments = segments_of([mark for mark in seen if mark.number not in named])
-    along = (found[-1] for place in places if len(found := bars_of(sheet, seen, place, diagonal)) in (1, 4))
-    return [bar for bar in along if goes_on(bar, segments, diagonal)]
+    every = (bars_of(sheet, seen, place, diagonal, GATE) for place in places)
+    along = (found[-1] for found in every if len(found) in (1, 4))
+    return [bar for bar in along if goes_on(bar, segments, diagonal, BEYOND * diagonal)]
 
 
-def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
+def bars_of(
+    sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float, largest: float = SIZES[1]
+) -> list[Bar]:
     """Return the bar that a mark draws; of a square or a line all that it may be; none for all else."""
     mark = sheet.marks[seen[place].number]
     if len(mark.outlines) != 1 or len(mark.outlines[0]) > 5:
@@ -143,7 +132,7 @@ def bars_of(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> 
     sides = sides[np.argsort(-np.hypot(*sides.T))]
     length, width = np.hypot(*sides.T)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    if not SIZES[0] * diagonal <= length <= SIZES[1] * diagonal:
+    if not SIZES[0] * diagonal <= length <= largest * diagonal:
         return []
     is_square = mark.fill is not None and width >= SQUARE * length and length <= LARGEST_SQUARE * diagonal
     if not is_square and width > SLENDER * length:
@@ -190,17 +179,18 @@ def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], least: int, diagon
     return kept
 
 
-def goes_on(bar: Bar, segments: Segments, diagonal: float) -> bool:
-    """Tell whether a wall goes on beyond both ends of a bar."""
+def goes_on(bar: Bar, segments: Segments, diagonal: float, further: float | None = None) -> bool:
+    """Tell whether a wall goes on beyond both ends of a bar, and so far."""
     along = (bar.ends[1] - bar.ends[0]) / bar.length
-    further = max(bar.length / 4.0, BEYOND * diagonal) * along
-    for point in (bar.ends[0] - further, bar.ends[1] + further):
+    step = max(bar.length / 4.0, BEYOND * diagonal) if further is None else further
+    least = bar.length / 2.0 if further is None else further
+    for point in (bar.ends[0] - step * along, bar.ends[1] + step * along):
         near = segments.tree.query(
             shapely.Point(point), predicate="dwithin", distance=bar.width / 2.0 + NEAR * diagonal
         )
         steps, lengths = segments.ends[near, 1] - segments.ends[near, 0], segments.lengths[near]
         turn = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0])
-        if not ((turn <= LEVEL * lengths) & (lengths > bar.length / 2.0)).any():
+        if not ((turn <= LEVEL * lengths) & (lengths > least)).any():
             return False
     return True
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import shapely
 
 from pilotage.interpretation.areas import find_areas
-from pilotage.interpretation.bars import Bar, find_bars, find_bars_beside, find_fronts, without_bars
+from pilotage.interpretation.bars import Bar, find_bars, find_fronts, without_bars
 from pilotage.interpretation.dashed import find_axes, find_dashed
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.doors import Door, find_doors, without_doors
@@ -70,16 +70,21 @@ def take_apart(view: View) -> Parts:
     roles = {number: role for number, (role, _) in view.guessed.items()}
     called_doors = {number for number, role in roles.items() if role is Role.DOOR}
     patched = find_patched(sheet, view.drawn, built, ground, diagonal)
-    if doors:
-        bars = find_bars_beside(sheet, built, called_doors, doors, diagonal)
-    else:
-        bars = find_bars(sheet, built, called_doors | patched.keys(), diagonal)
-    fronts = [] if doors else find_fronts(sheet, built, called_doors, bars, diagonal)
+    opened = without_doors(built, doors)
+    spent = {mark.number for mark, other in zip(built, opened, strict=True) if mark is not other}
+    uncut = [
+        other if mark.number in called_doors else mark for mark, other in zip(built, opened, strict=True)
+    ]
+    waiting = called_doors - spent
+    bars = find_bars(
+        sheet, uncut, waiting if doors else waiting | patched.keys(), diagonal, only_named=bool(doors)
+    )
+    fronts = find_fronts(sheet, uncut, waiting, bars, diagonal)
     bridges = find_bridges(sheet, built, patched, diagonal)
     marked = {built[bar.place].number for bar in (*bars, *fronts)}
     bridges += [] if doors else find_passages(sheet, built, called_doors - marked, diagonal)
     halves = find_halves(sheet, view.drawn, built, ground, diagonal)
-    left = without_halves(without_bars(without_doors(built, doors), bars, diagonal), halves, diagonal)
+    left = without_halves(without_bars(opened, bars, diagonal), halves, diagonal)
     left = without_bridges(left, bridges, diagonal)
     sides = {bridge.number for bridge in bridges}
     lines = [mark for mark in left if mark.number in sides or view.role(mark) not in NO_WALLS]
