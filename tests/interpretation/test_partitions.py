@@ -26,3 +26,11 @@ def test_rooms_that_hang_together_stand_if_one_of_them_does():
     found = find_partitions(shapely.union_all(row), OUTER, (), DOOR)
 
     assert 9.0 == found.bounds[3]
+
+
+@pytest.mark.parametrize("aside", [0.0, 0.007, 0.014, 0.02])
+def test_a_door_closes_a_wall_that_it_misses_by_little(aside):
+    wall = shapely.multilinestrings([[(10, 0), (10, 9.06)], [(10, 9.94), (10, 20)]])
+    door = shapely.LineString([(10 + aside, 9), (10 + aside, 10)])
+
+    assert not find_partitions(wall, OUTER, [door], DOOR).is_empty

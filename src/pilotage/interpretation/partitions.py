@@ -25,13 +25,17 @@ TOUCHING = 0.05
 def find_partitions(
     lines: shapely.Geometry, solid: shapely.Geometry, closing: Sequence[shapely.LineString], width: float
 ) -> shapely.Geometry:
-    """Find lines outside solids that part one room from the next; doors are `closing`, from jamb to jamb."""
+    """Find lines outside solids that part one room from the next; doors are `closing`, from jamb to jamb.
+
+    These are wider than the grid is fine: an arc tells a jamb less exactly than a wall is drawn.
+    """
     body = shapely.make_valid(shapely.buffer(solid, TOUCHING * width, join_style="mitre"))
     loose = outside(lines, body)
     if loose.is_empty:
         return NOTHING
     grain = TOUCHING * width / 4.0
-    pieces = on_grid(straight(np.array([loose, shapely.boundary(body), *closing])), grain)
+    across = [shapely.boundary(shapely.buffer(line, 2.0 * grain, cap_style="square")) for line in closing]
+    pieces = on_grid(straight(np.array([loose, shapely.boundary(body), *across])), grain)
     noded = shapely.union_all(shapely.multilinestrings(shapely.linestrings(pieces)), grid_size=grain)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
     large = faces[shapely.area(faces) >= ROOM_AREA * width**2]  # first: most faces are pieces of furniture
