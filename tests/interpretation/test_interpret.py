@@ -231,6 +231,13 @@ def test_pipes_and_cables_are_no_walls(layer):
     assert Role.IGNORE is interpret(sheet).meanings[-1].role
 
 
+@pytest.mark.parametrize("words", ["UP 14R", "DN", "±0.00", "FFL +0.15"])
+def test_the_way_of_stairs_and_the_level_of_a_floor_name_no_room(words):
+    graph = graph_of(WITH_GAP, (*LABELS, Text(words, (75.0, 20.0), height=3.0)))
+
+    assert {"bath", "hall"} == {cell.label for cell in graph.cells}
+
+
 def test_a_room_of_electricity_is_a_room():
     rooms = [box(x, 0, x + 50, 80, pen=Pen(BLACK, 1.0), names=("electrical-room",)) for x in (0, 50)]
 

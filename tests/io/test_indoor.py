@@ -258,10 +258,10 @@ def test_a_door_opens_no_wall_that_runs_across_its_end(tmp_path):
 def test_stairs_with_a_door_are_a_room(tmp_path):
     rooms = (
         feature(BOX, indoor="room", name="a"),
-        feature(NEXT, feature_type="unit", category="stairs", name="up"),
+        feature(NEXT, feature_type="unit", category="stairs", name="flight"),
     )
     door = feature([(4, 1), (4, 2)], "LineString", feature_type="opening")
-    assert joined(read(tmp_path, *rooms, door)) == {frozenset(("a", "up"))}
+    assert joined(read(tmp_path, *rooms, door)) == {frozenset(("a", "flight"))}
 
 
 def test_walls_of_neighbors_that_hardly_miss_are_one(tmp_path):

@@ -50,6 +50,18 @@ COMMA = re.compile(r"\d+,\d+")
 SPACED = 4
 """So many letters that stand alone are a word that is spaced out or stacked; fewer may be names of places."""
 
+FLIGHT = re.compile(
+    r"\W*(?:up|dn|down|上|下)\W*(?:\d+\W*(?:r|rs|risers?|steps?|treads?|级|步|段)\b.*)?", re.IGNORECASE
+)
+"""Where stairs lead, and by how many steps: UP, DN 14R, 上20级."""
+
+LEVEL = re.compile(
+    r"(?:(?:ffl|ssl|fl|lvl|level|el|elev|rl|ok|okff|okrf|cota|niv|npt)\W{0,2})?"
+    r"(?:±\s*\d+(?:[.,]\d+)?|\+\s*\d+[.,]\d{2,3}|[-\N{MINUS SIGN}]\s*0[.,]\d{2,3})\s*m?",
+    re.IGNORECASE,
+)
+"""The height of a floor, maybe after what it is called: ±0.00, FFL +0.15. A room may be called -1.05."""
+
 MARK_OF_NOTHING = re.compile(r"\W*")
 """Words without a letter or a digit."""
 
@@ -85,11 +97,21 @@ def is_measure(words: str) -> bool:
 
 
 def role_of_words(words: str) -> tuple[Role, str]:
-    """Tell names of places from what is written at doors and windows: its last word is one for them.
+    """Tell names of places from what is written at doors and windows, upon stairs, and of levels.
+
+    The last word at a door is one for doors.
 
     >>> [role_of_words(words)[0].value for words in ("Front door", "Badtür (60 cm)", "Outdoor", "Door 2 bar")]
     ['ignore', 'ignore', 'label', 'label']
+    >>> [role_of_words(words)[0].value for words in ("UP 14R", "dn.", "Upper hall", "Up 3")]
+    ['ignore', 'ignore', 'label', 'label']
+    >>> [role_of_words(words)[0].value for words in ("±0.00", "FFL +0.15", "-0,45", "-1.05", "Hall +1")]
+    ['ignore', 'ignore', 'ignore', 'label', 'label']
     """
+    if FLIGHT.fullmatch(words.strip()):
+        return Role.IGNORE, "where stairs lead"
+    if LEVEL.fullmatch(words.strip()):
+        return Role.IGNORE, "the level of a floor"
     spoken = [word for word in name_words(re.sub(r"\(.*?\)", " ", words)) if word not in UNITS]
     if spoken and meaning_of(spoken[-1]) in (Role.DOOR, Role.WINDOW):
         return Role.IGNORE, "the name of a door or a window"
