@@ -102,6 +102,12 @@ def test_shapes_turn_clockwise_about_their_middle(tmp_path):
     assert leaf.names == ("mxgraph.floorplan.doorLeft",)
 
 
+def test_shapes_of_the_library_that_are_no_part_of_a_building_are_called_furniture(tmp_path):
+    (mark,) = read(tmp_path, model(vertex(style="shape=mxgraph.floorplan.water_cooler"))).marks
+
+    assert mark.names == ("furnishings", "mxgraph.floorplan.water_cooler")
+
+
 def test_directions_and_mirrors_are_those_of_drawio(tmp_path):
     corner = "shape=mxgraph.floorplan.wallCorner;fillColor=strokeColor;"
     for style, full in (

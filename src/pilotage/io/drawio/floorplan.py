@@ -163,11 +163,21 @@ SHAPES: Mapping[str, Callable[[float, float, Style], Figures]] = {
 }
 
 
+def is_furniture(shape: str) -> bool:
+    """Tell whether a shape of the library is no part of a building.
+
+    >>> is_furniture("mxgraph.floorplan.water_cooler"), is_furniture("mxgraph.floorplan.wallU")
+    (True, False)
+    """
+    name = shape.removeprefix(LIBRARY)
+    return shape.startswith(LIBRARY) and name not in SHAPES and not name.startswith(("window", "door"))
+
+
 def floorplan_figures(shape: str, width: float, height: float, style: Style) -> Figures:
     """Draw a shape of the library by its name."""
     name = shape.removeprefix(LIBRARY)
     if name in SHAPES:
         return SHAPES[name](width, height, style)
-    if name.startswith("window"):
-        return window(width, height, style)
-    return door(width, height, style) if name.startswith("door") else furniture(width, height, style)
+    if is_furniture(shape):
+        return furniture(width, height, style)
+    return (window if name.startswith("window") else door)(width, height, style)

@@ -9,7 +9,7 @@ from pilotage.io.drawio.cells import Box, Cell, Cells, number, read_cells
 from pilotage.io.drawio.document import read_diagrams, read_model
 from pilotage.io.drawio.edges import edge_way
 from pilotage.io.drawio.figures import INVISIBLE, figures_of, page_from_figure
-from pilotage.io.drawio.floorplan import Style
+from pilotage.io.drawio.floorplan import Style, is_furniture
 from pilotage.io.drawio.labels import lines_of, read_label
 from pilotage.io.pages import choose_page, other_pages
 from pilotage.io.sheet_builder import SheetBuilder, outline_through
@@ -67,7 +67,12 @@ class PageReader:
         box, style = self.cells.box(cell), cell.style
         shape = style.get("shape", "")
         library = shape if "." in shape or shape == "dimension" else ""
-        names = (*names, library, thing_called(" ".join(lines_of(cell.value))))
+        names = (
+            *names,
+            "furnishings" if is_furniture(shape) else "",
+            library,
+            thing_called(" ".join(lines_of(cell.value))),
+        )
         if shape == "image" or "image" in style:
             self.builder.leave_out("embedded pictures")
         else:
