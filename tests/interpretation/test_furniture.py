@@ -92,3 +92,12 @@ def test_a_box_that_a_word_does_not_fill_or_with_two_is_a_room(other):
     sheet = Sheet((*WITH_GAP, room), (Text("Sofa", (20, 15), height=3.0), *other))
 
     assert Role.WALL is interpret(sheet).meanings[-1].role
+
+
+def test_words_for_furniture_in_what_is_called_so_name_no_room():
+    bed = box(12, 25, 28, 45, pen=THIN, names=("A-FURN",))
+    texts = [Text(words, (20.0, 35.0), height=1.0) for words in ("床", "Doppelbett", "bath")]
+
+    names = [{cell.label for cell in graph_of((*WITH_GAP, bed), (text,)).cells} for text in texts]
+
+    assert [{""}, {""}, {"", "bath"}] == names

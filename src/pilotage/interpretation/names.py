@@ -68,7 +68,9 @@ VOCABULARY: Mapping[Role, str] = {
     " divano divani panca panche scaffale scaffali armadio armadi sedia sedie tavolo tavoli letto letti"
     " sanitari meubels kast kasten tafel tafels stoel stoelen bedden rekken mobiliário móveis moveis"
     " prateleira prateleiras armário armários cadeira cadeiras louças meble nábytek nabytek nábytok mobilya"
-    " mobilyalar bútor bútorok namještaj møbler huonekalut 家具 洁具 가구",
+    " mobilyalar bútor bútorok namještaj møbler huonekalut 家具 洁具 가구"
+    " 床 沙发 茶几 桌 椅 凳 柜 冰箱 洗衣机 马桶 浴缸 洗手盆 书架 ベッド ソファ テーブル 机 椅子 冷蔵庫 洗濯機"
+    " 침대 소파 식탁 책상 의자 냉장고 세탁기",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto"
     " textos tekst raumnamen raumbezeichnung glyph glyphs teksty napisy opisy popisy yazı yazi метки текст"
     " тексты надписи 文字 문자",
@@ -125,6 +127,7 @@ HEADS = (
     *("schrank", "schränke", "schraenke", "regal", "regale", "tisch", "tische", "stuhl", "stühle", "stuehle"),
     *("bett", "betten", "träger", "traeger", "balken"),
     *("墙", "墙体", "标注", "尺寸", "轴线", "轴网", "家具", "管线", "管道"),
+    *("床", "沙发", "桌", "椅", "凳", "柜", "书架", "ベッド", "ソファ", "テーブル", "침대", "소파", "책상"),
     *("壁", "寸法", "通り芯", "치수", "중심선"),
 )
 """What ends with one of these is of its kind: "Stahlträger" is a beam. German and others join their words."""

@@ -81,7 +81,8 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     letters = {number for place, number in enumerate(unsaid) if place in glyphs}
     visible = look_at(sheet, [number for number in drawn if number not in letters], paper.ground, diagonal)
     called = {number: guessed_role(names) for number, names in names_inside(sheet, drawn).items()}
-    written = find_written(sheet, drawn, diagonal)
+    things = {number for number, role in called.items() if is_furniture(role)}
+    written = find_written(sheet, drawn, things, diagonal)
     for number in [number for number in written if called[number] is None]:
         called[number] = Role.FURNITURE, f"in it is written {sheet.texts[written[number]].text!r}"
     others = [number for number in drawn if number not in letters and not is_furniture(called[number])]
@@ -92,8 +93,8 @@ def view_of(sheet: Sheet, layers: Mapping[str, Role]) -> View:
     guessed = {
         mark.number: role for mark in visible if (role := closing.get(mark.number) or called[mark.number])
     }
-    things = set(written.values())
-    return View(sheet, told, closing, guessed, paper, drawn, letters, called, things, visible, diagonal)
+    words = set(written.values())
+    return View(sheet, told, closing, guessed, paper, drawn, letters, called, words, visible, diagonal)
 
 
 def is_furniture(named: tuple[Role, str] | None) -> bool:

@@ -1,6 +1,7 @@
 """Find furniture that is told by what is written in it, as "Sofa" in a box is."""
 
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 import shapely
@@ -20,10 +21,13 @@ CLOSETS = frozenset(("wardrobe", "wardrobes", "cabinet", "cabinets", "cupboard",
 """Small rooms are called so, too."""
 
 
-def find_written(sheet: Sheet, drawn: Sequence[int], diagonal: float) -> dict[int, int]:
+def find_written(
+    sheet: Sheet, drawn: Sequence[int], things: AbstractSet[int], diagonal: float
+) -> dict[int, int]:
     """Find the closed marks in which the name of a piece of furniture is written: the mark, and the text.
 
-    It is the smallest shape around the word, and nothing else is written in it.
+    It is the smallest shape around the word, and nothing else is written in it. The word fills it, or it is
+    one of the `things` that are called furniture.
     """
     spoken = [number for number, text in enumerate(sheet.texts) if names_thing(text.text)]
     closed = [number for number in drawn if is_closed(sheet.marks[number])]
@@ -42,8 +46,8 @@ def find_written(sheet: Sheet, drawn: Sequence[int], diagonal: float) -> dict[in
             continue
         place = int(holding[np.argmin(shapely.area(areas[holding]))])
         least = GLYPH_WIDTH * text.height * len(text.text)
-        is_filled = FILLING * lengths[place] <= least and lengths[place] <= LARGEST * diagonal
-        if is_filled and (around == place).sum() == 1:
+        is_filled = closed[place] in things or FILLING * lengths[place] <= least
+        if is_filled and lengths[place] <= LARGEST * diagonal and (around == place).sum() == 1:
             found[closed[place]] = number
     return found
 
