@@ -8,11 +8,10 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Polyline
-from pilotage.interpretation.bars import opened_bars, written_upon
+from pilotage.interpretation.bars import written_upon
 from pilotage.interpretation.dashed import opened_dashed
 from pilotage.interpretation.drawn import Walls
 from pilotage.interpretation.floors import is_floor
-from pilotage.interpretation.halves import opened_halves
 from pilotage.interpretation.hatching import opened_shut
 from pilotage.interpretation.meanings import Evidence, Meaning, find_meanings
 from pilotage.interpretation.names import guessed_role, told_role
@@ -21,7 +20,6 @@ from pilotage.interpretation.paint import Seen, polylines_of
 from pilotage.interpretation.painted import find_painted_rooms, outlined
 from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
-from pilotage.interpretation.patches import opened_bridges
 from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.solids import rings_of
 from pilotage.interpretation.view import View, common_names, view_of
@@ -88,10 +86,10 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     texts = view.sheet.texts
     told = [told_role(text.names, layers) for text in texts]
     things = {
-        **dict.fromkeys(parts.lengths, "the length of a dimension line"),
+        **dict.fromkeys(parts.aside.lengths, "the length of a dimension line"),
         **dict.fromkeys(view.written, "the name of the furniture around it"),
-        **dict.fromkeys(written_upon(parts.bars, texts), "the name of a door or a window"),
-        **dict.fromkeys(parts.written, "the north of a compass"),
+        **dict.fromkeys(written_upon(parts.openings.bars, texts), "the name of a door or a window"),
+        **dict.fromkeys(parts.aside.written, "the north of a compass"),
     }
     plain = [
         (Role.IGNORE, things[number]) if number in things else role_of_words(text.text)
@@ -159,10 +157,7 @@ def sketch_of(view: View, parts: Parts, text_roles: Sequence[tuple[Role, str]]) 
         zones=find_zones(sheet, view.told),
         photo_from_sketch=sheet.photo_from_sheet,
         doors=(
-            *(Polyline(np.array([door.hinge, door.latch])) for door in parts.doors),
-            *opened_bars([*parts.bars, *parts.fronts]),
-            *opened_halves(parts.halves),
-            *opened_bridges(parts.bridges),
+            *parts.openings.lines,
             *opened_dashed(sheet, sorted(parts.dashed)),
             *opened_shut(parts.walls.shut),
         ),
@@ -180,19 +175,14 @@ def evidence_of(view: View, parts: Parts, painted: Sequence[int]) -> Evidence:
         {
             **dict.fromkeys(painted, Meaning(Role.WALL, "painted as a room; its edge is the wall")),
             **dict.fromkeys(parts.dashed, Meaning(Role.DOOR, "a dashed line from wall to wall")),
-            **{half.number: Meaning(Role.DOOR, "a gap in one of two lines") for half in parts.halves},
-            **{bridge.number: Meaning(Role.DOOR, "a patch from box to box") for bridge in parts.bridges},
+            **parts.openings.meanings,
             **dict.fromkeys(parts.areas, Meaning(Role.IGNORE, "the outline of a room, along its walls")),
-            **dict.fromkeys(parts.measuring, Meaning(Role.IGNORE, "a dimension line")),
-            **dict.fromkeys(parts.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),
-            **dict.fromkeys(
-                parts.signs, Meaning(Role.IGNORE, "a disc in a color of its own, a compass or a plate")
-            ),
+            **parts.aside.meanings,
             **named,
         },
         parts.built,
         parts.left,
-        parts.doors,
+        parts.openings.doors,
         parts.walls,
         view.paper.ground,
         view.diagonal,

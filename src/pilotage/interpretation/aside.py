@@ -1,0 +1,48 @@
+"""Set aside what is drawn but is no part of a building: dimension lines, signs and axes."""
+
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+from pilotage.interpretation.dashed import find_axes
+from pilotage.interpretation.dimensions import find_dimensions
+from pilotage.interpretation.meanings import Meaning
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.plates import find_plates
+from pilotage.interpretation.sheet import Role
+from pilotage.interpretation.signs import find_signs
+from pilotage.interpretation.view import View
+
+
+@dataclass(frozen=True, eq=False)
+class Aside:
+    """Marks that measure, point or explain; numbers are those of the sheet."""
+
+    measuring: AbstractSet[int]  # dimension lines
+    lengths: AbstractSet[int]  # texts of these
+    signs: AbstractSet[int]  # discs, compasses and plates
+    written: AbstractSet[int]  # texts of these
+    axes: AbstractSet[int]  # dashed lines through the building and beyond
+
+    @property
+    def meanings(self) -> dict[int, Meaning]:
+        """What these marks are."""
+        return {
+            **dict.fromkeys(self.measuring, Meaning(Role.IGNORE, "a dimension line")),
+            **dict.fromkeys(self.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),
+            **dict.fromkeys(
+                self.signs, Meaning(Role.IGNORE, "a disc in a color of its own, a compass or a plate")
+            ),
+        }
+
+
+def set_aside(view: View, seen: Sequence[Seen]) -> tuple[Aside, list[Seen]]:
+    """Part what explains a plan from what is seen of the building."""
+    sheet, diagonal = view.sheet, view.diagonal
+    measuring, lengths = find_dimensions(sheet, seen, view.guessed, view.lettering, diagonal)
+    unnamed = [mark for mark in seen if mark.number not in view.guessed]
+    signs, written = find_signs(sheet, unnamed, diagonal)
+    signs |= find_plates(sheet, unnamed)
+    axes = find_axes(sheet, [mark for mark in unnamed if mark.number not in measuring | signs], diagonal)
+    left = [mark for mark in seen if mark.number not in measuring | signs | axes]
+    return Aside(measuring, lengths, signs, written, axes), left
