@@ -36,6 +36,10 @@ def in_file(sketch: SchematicMap):
 
 LINE = '<line x1="1" y1="2" x2="3" y2="5" stroke="black"/>'
 STROKE = 'stroke="black" fill="none"'
+HIDDEN = (
+    '<rect class="room" id="bath" width="30" height="20" fill="transparent"/><circle r="2" cx="9" cy="9"/>'
+    '<rect class="room" id="room-hall" x="30" width="30" height="20" fill-opacity=".2"/>'
+)
 CHART = (
     f'<g id="axes_1">{{}}{LINE}<g id="patch_3"><path {STROKE} d="M 0 9 L 0 0 "/></g>'
     f'<g id="patch_4"><path {STROKE} d="M 1 9 L 1 0 L 5 0"/></g></g>'
@@ -85,6 +89,13 @@ CHART = (
             1,
         ),
         (LINE + '<rect class="room" id="office" width="9" height="9" fill-opacity="0"/>', "", ["office"], 1),
+        (HIDDEN, "", ["room-hall", "bath"], 2),
+        (
+            HIDDEN + '<path d="M0 0H60V20H0ZM30 0V20" fill="none" stroke="#000"/>',
+            "",
+            ["room-hall", "bath"],
+            3,
+        ),
         (LINE + '<rect width="9" height="9" opacity="0"><title>Bath</title></rect>', "", ["Bath"], 1),
         (LINE + '<rect width="9" height="9" display="none"><title>Bath</title></rect>', "", [], 1),
     ],

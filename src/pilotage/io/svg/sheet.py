@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -11,6 +12,7 @@ import svgelements
 
 from pilotage.interpretation import Color, Mark, Pen, Role, Sheet, Text
 from pilotage.interpretation.names import SPACES, guessed_role, holds_rooms, is_room, name_words
+from pilotage.interpretation.paper import boxes_of
 from pilotage.io.clip import Part, cut
 from pilotage.io.colors import is_hint, on_paper
 from pilotage.io.svg.flatten import flatten
@@ -33,6 +35,9 @@ OPAQUE = 0.5
 
 LARGE = 0.1
 """A room is longer than this share of the drawing's diagonal; what is smaller and has a title is a thing."""
+
+SEVERAL = 2
+"""So many rooms at least are a plan, though not painted."""
 
 GENERIC = frozenset((*SPACES, *DRAWN, "rectangle", "vector", "shape", "group", "layer", "floor"))
 """Words that tell nothing of a room."""
@@ -57,6 +62,7 @@ def read_svg_sheet(path: Path) -> Sheet:
         labels = labeled(shapes)
         letters = {label: group for label, group in labels.items() if are_letters(label[1], group)}
         marks = read_marks(shapes, tolerance, letters, OPAQUE) or read_marks(shapes, tolerance, letters, 0.0)
+        marks = with_hidden_rooms([*shapes, *content.unseen], marks)
         words = tuple(text for item in content.texts for text in read_texts(item))
     bounds = None if page is None else (page.x, -(page.y + page.height), page.x + page.width, -page.y)
     return Sheet(
@@ -79,6 +85,28 @@ def read_marks(
 ) -> tuple[Mark, ...]:
     """Flatten all shapes; paint that is less opaque than this is none."""
     return tuple(mark for shape in shapes for mark in read_mark(shape, tolerance, letters, opaque))
+
+
+def with_hidden_rooms(shapes: Sequence[Shape], marks: Sequence[Mark]) -> tuple[Mark, ...]:
+    """Outline the shapes that are called rooms and not painted, where no mark is as long as most of them.
+
+    Dashboards lay them over a picture of the plan; all that is painted shows what is measured.
+    """
+    hidden = [
+        shape for shape in shapes if room_name(shape.drawn) and not any(read_mark(shape, 1.0, {}, OPAQUE))
+    ]
+    lengths = [math.dist(box[:2], box[2:]) for box in boxes_of(marks)]
+    if len(hidden) < SEVERAL or max(lengths, default=0.0) >= np.median([diagonal_of([a]) for a in hidden]):
+        return tuple(marks)
+    tolerance = FLATNESS * diagonal_of(hidden)
+    return (
+        *(replace(mark, names=(*mark.names, "ignore")) for mark in marks),
+        *(
+            Mark(tuple(outlines), Pen(), None, shape.drawn.names, shape.drawn.groups, source_of(shape.drawn))
+            for shape in hidden
+            if (outlines := [flipped(line) for line in flatten(shape.outline, tolerance)])
+        ),
+    )
 
 
 def read_mark(shape: Shape, tolerance: float, letters: Labeled, opaque: float) -> Iterator[Mark]:
