@@ -224,6 +224,14 @@ def test_lines_in_a_color_over_walls_are_doors_within_a_building_and_windows_aro
     assert Role.WALL is understood.meanings[-1].role
 
 
+@pytest.mark.parametrize(("name", "joined"), [("window", False), ("w1", True)])
+def test_thin_lines_in_gaps_between_rooms_close_them_if_they_are_named_windows(name, joined):
+    front = (stroke((20, 0), (20, -9), width=0.3), arc((20, 0), 9, 270, 360))
+    pane = stroke((50, 30), (50, 42), width=0.3, names=(name,))
+
+    assert are_joined((*WITH_GAP, *front, pane)) is joined
+
+
 @pytest.mark.parametrize("layer", ["PIPES", "cable-trays 2", "ELECTRICAL", "给排水管线"])
 def test_pipes_and_cables_are_no_walls(layer):
     sheet = Sheet((*WITH_GAP, stroke((20, 0), (20, 80), names=(layer,))))

@@ -40,11 +40,12 @@ def by_style(
     *,
     share: float,
 ) -> tuple[shapely.Geometry, shapely.Geometry, shapely.Geometry]:
-    """Part lines in black or gray from dashed ones, and those in a color or thin that are not named walls.
+    """Part lines in black or gray from dashed ones, and from those in a color or thin.
 
-    The third are outlines of things: such lines around a fill in which no place is named, and lines that
-    are both dashed and thin. `share`, one of THIN, tells what is thin. The outline of what is named a room
-    is its wall, where none is drawn beside it, not even a `solid` one.
+    What is named a wall or a window is neither in a color nor thin: it closes rooms. The third are outlines
+    of things: such lines around a fill in which no place is named, and lines that are both dashed and thin.
+    `share`, one of THIN, tells what is thin. The outline of what is named a room is its wall, where none is
+    drawn beside it, not even a `solid` one.
     """
     usual = usual_pen(seen, sheet)
     thin = share * usual.width
@@ -64,7 +65,7 @@ def by_style(
         if pen is not None and not mark.line.is_empty:
             is_thin = 0.0 < pen.width < thin or pen in fine
             is_other = is_thin or (is_black and is_colored(pen))
-            is_named = named.get(mark.number) is Role.WALL
+            is_named = named.get(mark.number) in (Role.WALL, Role.WINDOW)
             is_marginal = pen.dashed or (is_other and not is_named)
             if not is_marginal:
                 main.append(mark.line)
