@@ -239,6 +239,14 @@ def test_pipes_and_cables_are_no_walls(layer):
     assert Role.IGNORE is interpret(sheet).meanings[-1].role
 
 
+@pytest.mark.parametrize(("height", "label"), [(2.0, "hall"), (3.0, "hall, Stove")])
+def test_words_for_furniture_in_smaller_letters_than_names_of_rooms_name_none(height, label):
+    texts = [replace(text, height=3.0) for text in LABELS]
+    graph = graph_of(WITH_GAP, (*texts, Text("Stove", (75.0, 20.0), height=height)))
+
+    assert {"bath", label} == {cell.label for cell in graph.cells}
+
+
 @pytest.mark.parametrize("words", ["UP 14R", "DN", "±0.00", "FFL +0.15"])
 def test_the_way_of_stairs_and_the_level_of_a_floor_name_no_room(words):
     graph = graph_of(WITH_GAP, (*LABELS, Text(words, (75.0, 20.0), height=3.0)))

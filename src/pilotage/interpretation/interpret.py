@@ -24,6 +24,7 @@ from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
 from pilotage.interpretation.solids import rings_of
 from pilotage.interpretation.view import View, common_names, view_of
 from pilotage.interpretation.words import find_names, is_measure, role_of_words
+from pilotage.interpretation.written import smaller_words
 from pilotage.interpretation.zones import find_zones
 from pilotage.maps import Label, SchematicMap
 
@@ -86,6 +87,7 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     texts = view.sheet.texts
     told = [told_role(text.names, layers) for text in texts]
     things = {
+        **dict.fromkeys(smaller_words(texts), "a word for furniture in small letters"),
         **dict.fromkeys(parts.aside.lengths, "the length of a dimension line"),
         **dict.fromkeys(view.written, "the name of the furniture around it"),
         **dict.fromkeys(written_upon(parts.openings.bars, texts), "the name of a door or a window"),

@@ -8,7 +8,8 @@ import shapely
 
 from pilotage.interpretation.names import meaning_of, name_words, thing_called
 from pilotage.interpretation.paper import is_closed
-from pilotage.interpretation.sheet import Role, Sheet
+from pilotage.interpretation.pens import names_place
+from pilotage.interpretation.sheet import Role, Sheet, Text
 from pilotage.interpretation.words import GLYPH_WIDTH
 
 FILLING = 0.25
@@ -16,6 +17,9 @@ FILLING = 0.25
 
 LARGEST = 0.2
 """A thing is no longer than this share of the drawing's diagonal."""
+
+SMALLER = 0.9
+"""Letters are smaller than others if they are at most so high, as a share of these."""
 
 CLOSETS = frozenset(("wardrobe", "wardrobes", "cabinet", "cabinets", "cupboard", "cupboards"))
 """Small rooms are called so, too."""
@@ -50,6 +54,14 @@ def find_written(
         if is_filled and lengths[place] <= LARGEST * diagonal and (around == place).sum() == 1:
             found[closed[place]] = number
     return found
+
+
+def smaller_words(texts: Sequence[Text]) -> list[int]:
+    """List the texts that name furniture in smaller letters than those of most places."""
+    things = [number for number, text in enumerate(texts) if names_thing(text.text)]
+    heights = [text.height for text in texts if text.height > 0.0 and names_place(text)]
+    usual = float(np.median(heights)) if heights else 0.0
+    return [number for number in things if 0.0 < texts[number].height < SMALLER * usual]
 
 
 def names_thing(words: str) -> bool:
