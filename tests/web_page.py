@@ -2,6 +2,7 @@
 
 import os
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -123,3 +124,12 @@ def on_a_phone(browser: Browser, address: str) -> Sheet:
     sheet = Sheet(page)
     expect(sheet.summary).to_contain_text(re.compile("[1-9] cells"), timeout=PATIENCE_MS)
     return sheet
+
+
+def wait_until(page: Page, is_so: Callable[[], bool]) -> None:
+    """Wait until something holds."""
+    for _ in range(PATIENCE_MS // 50):
+        if is_so():
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError

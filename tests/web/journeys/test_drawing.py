@@ -8,7 +8,7 @@ from PIL import Image, ImageDraw
 from playwright.sync_api import Route, expect
 
 import pilotage
-from web_page import PATIENCE_MS, Sheet
+from web_page import PATIENCE_MS, Sheet, wait_until
 from web_table import FLAT, TWO_ROOMS
 
 pytestmark = pytest.mark.slow
@@ -215,6 +215,7 @@ def test_a_cad_plan_is_opened(sheet: Sheet, tmp_path: Path) -> None:
     sheet.page.get_by_test_id("file-input").set_input_files(plan)
 
     expect(sheet.page.get_by_role("alert")).to_contain_text("reading plan.dxf ...", timeout=PATIENCE_MS)
+    wait_until(sheet.page, lambda: bool(held))
     held[0].continue_()
     expect(sheet.page.get_by_role("alert")).to_contain_text("taken for walls", timeout=PATIENCE_MS)
     expect(sheet.summary).to_contain_text("2 cells, 1 opening", timeout=PATIENCE_MS)

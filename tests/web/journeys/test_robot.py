@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -18,7 +18,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from loopback_robot import LoopbackRobot
-from web_page import PATIENCE_MS, Sheet
+from web_page import PATIENCE_MS, Sheet, wait_until
 
 pytestmark = pytest.mark.slow
 DOMAIN = 97
@@ -62,15 +62,6 @@ def open_page(context: BrowserContext, address: str) -> Page:
     page.goto(address)
     page.wait_for_selector("body[data-ready]")
     return page
-
-
-def wait_until(page: Page, is_so: Callable[[], bool]) -> None:
-    """Wait until something holds."""
-    for _ in range(PATIENCE_MS // 50):
-        if is_so():
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError
 
 
 def let_drive(page: Page, robot: LoopbackRobot) -> None:
