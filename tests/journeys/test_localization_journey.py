@@ -53,7 +53,7 @@ def test_a_robot_finds_its_room_on_quick_drawings():
 def test_a_robot_finds_its_room_on_careful_drawings():
     buildings = ("belgioioso", "csail")
 
-    assert 4 <= sum(right_at_end(one, "draftsman", count=3, length=40.0, apart=2) for one in buildings)
+    assert 6 <= sum(right_at_end(one, "draftsman", count=4, length=40.0, apart=2) for one in buildings)
 
 
 @pytest.fixture(scope="module")

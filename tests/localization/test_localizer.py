@@ -14,7 +14,7 @@ from pilotage.localization import Localizer, LocalizerSettings, Status, Tracks, 
 from pilotage.localization.global_search import global_search
 from pilotage.localization.keyframes import append_keyframe
 from pilotage.localization.observation import observe
-from pilotage.localization.particle_filter import MISSED, Posterior, log_birth_factor
+from pilotage.localization.particle_filter import Posterior, log_birth_factor
 from pilotage.localization.particles import HEADING, LOG_SCALE, X, Y
 from pilotage.localization.sensor_model import SensorModel
 from pilotage.maps import SchematicMap, build_atlas
@@ -284,19 +284,6 @@ def test_where_a_scan_shows_that_the_robot_was_carried_the_window_begins_anew_an
     assert 1.0 == carried[0].novelty
     assert math.log(0.2 * 0.5 / 10.0) == pytest.approx(factors[1])
     assert factors[0] < factors[1] - 5.0
-
-
-def test_the_longer_a_way_the_less_likely_it_is_that_no_particle_is_where_the_robot_is():
-    (first,) = append_keyframe((), observe(readings_of(PATH)[0][0], (), Pose2.identity()))
-    factors = []
-    for travel in (0.0, 10.0, 40.0, 120.0):
-        before = replace(Posterior(Tracks((), 0.0)), searched=travel - 1.0)
-        factors.append(log_birth_factor(before, (replace(first, travel=travel),), SMALL.tracks))
-
-    assert factors == sorted(factors, reverse=True)
-    assert [math.log(MISSED), math.log(SMALL.tracks.moving)] == pytest.approx(
-        [factors[0], factors[-1]], abs=0.01
-    )
 
 
 def test_a_robot_that_is_carried_doubts_at_once_and_finds_itself_again(atlas):

@@ -93,6 +93,15 @@ def test_clusters_far_apart_are_tracks_that_keep_their_masses(first, second, see
         assert 4.0 > np.ptp(one.particles.states[X])
 
 
+def test_a_place_that_a_search_has_just_found_stays_a_track():
+    born = math.log(TrackSettings().moving)
+    both = join([near(1.5, 1.5, 0.0, 800, 0.0), near(8.0, 5.0, 2.0, 100, born)])
+    tracks = cluster(both, math.log(0.1), ATLAS, FEW, np.random.default_rng(0)).tracks
+
+    assert 2 == len(tracks)
+    assert born == pytest.approx(tracks[1].log_evidence - tracks[0].log_evidence, abs=0.01)
+
+
 def test_tracks_that_head_another_way_are_not_merged():
     both = join([near(1.5, 1.5, 0.0, 500, -1.0), near(1.5, 1.5, math.pi, 500, -1.0)])
     tracks = cluster(both, math.log(0.1), ATLAS, FEW, np.random.default_rng(0))

@@ -27,9 +27,6 @@ from pilotage.localization.tracks import (
 
 CARRIED = 0.2
 """Probability that the robot was carried where a scan shows another place than those before."""
-MISSED, MISSED_LENGTH = 0.005, 10.0
-"""Probability per metre, at first, that no particle is where the robot is, and the travel [m] over which it
-falls by a factor of e: each search that finds no better place makes it less likely."""
 MIN_TRAVEL = 0.05
 """[m] of travel since a search that counts at least: a robot that only turns may be elsewhere, too."""
 
@@ -138,16 +135,15 @@ class ParticleFilter:
 def log_birth_factor(posterior: Posterior, window: tuple[Keyframe, ...], settings: TrackSettings) -> float:
     """Return what the log-mass of a birth adds to the log-evidence there of a searched window [nats].
 
-    A birth says that when the window began the robot was there unknown to all tracks: it was carried, or
-    no particle was left there. By Bayes' rule its mass is the prior of that, times the evidence of the
-    window there, over the evidence that all tracks together had since. That of the first keyframe is left
-    out: a search weighs a window by a few of its keyframes, so births are weak already, and with it fewer
-    runs ended right (decision 0023). The prior is shared among the searches.
+    A birth says that the robot was carried there before the window began, and no track knows it. By Bayes'
+    rule its mass is the prior of that, times the evidence of the window there, over the evidence that all
+    tracks together had since. That of the first keyframe is left out: a search weighs a window by a few of
+    its keyframes, so births are weak already, and with it fewer runs ended right (decision 0023). The prior
+    is shared among the searches.
     """
     distance = max(window[-1].travel - posterior.searched, MIN_TRAVEL)
     if window[0].was_carried:
         log_prior = math.log(CARRIED * distance / WINDOW)
     else:
-        rate = settings.moving + MISSED * math.exp(-window[-1].travel / MISSED_LENGTH)
-        log_prior = math.log(rare(rate * distance)) + posterior.log_told
+        log_prior = math.log(rare(settings.moving * distance)) + posterior.log_told
     return log_prior - sum(log_total for _, log_total in posterior.log_totals[1:])

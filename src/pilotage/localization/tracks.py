@@ -25,8 +25,9 @@ SECTORS = 12
 """... if their headings lie in neighboring sectors as well; this is the number of sectors."""
 ROWS = 4_096
 """Numbers of rows and of columns of blocks: what lies farther off shares the outermost."""
-MIN_SHARE = 1e-5
-"""Share of the mass on the drawing below which a block is pruned, if not all blocks are that small."""
+MIN_SHARE = 1e-8
+"""Share of the mass on the drawing below which a block is pruned, if not all blocks are that small: places that
+a search finds begin with hardly more, and some need tens of metres to show their worth (decision 0041)."""
 MINOR_SHARE = 0.02
 """Tracks with a smaller share get few particles."""
 MINOR_COUNT = (500, 1_500)
