@@ -23,7 +23,7 @@ class Sheet:
 
     def box(self, left: float, top: float, right: float, bottom: float) -> None:
         """Draw a rectangle."""
-        self.page.keyboard.press("r")
+        self._take("r", "toolbar-rectangle")
         self.drag((left, top), (right, bottom))
         self.page.keyboard.press("Escape")
 
@@ -38,11 +38,16 @@ class Sheet:
 
     def write(self, x: float, y: float, words: str) -> None:
         """Write words."""
-        self.page.keyboard.press("t")
+        self._take("t", "toolbar-text")
         self.page.mouse.click(x, y)
-        self.page.locator("textarea.excalidraw-wysiwyg").wait_for()
+        self.page.locator("textarea.excalidraw-wysiwyg").wait_for(timeout=PATIENCE_MS)
         self.page.keyboard.type(words)
         self.page.keyboard.press("Escape")
+
+    def _take(self, key: str, button: str) -> None:
+        """Take a tool of the editor in hand by its key, and wait until the editor has it."""
+        self.page.keyboard.press(key)
+        expect(self.page.get_by_test_id(button)).to_be_checked(timeout=PATIENCE_MS)
 
     def tool(self, name: str) -> None:
         """Choose a tool of the table, or leave it."""
