@@ -263,3 +263,14 @@ def test_what_is_written_at_a_door_names_no_room_unless_a_person_says_so():
     labels = interpret(Sheet(WITH_GAP, texts)).sketch.labels
 
     assert ["Hall", "Red door"] == [label.text for label in labels]
+
+
+def test_what_is_written_at_a_door_names_no_room_where_all_words_are_called_labels():
+    texts = (
+        Text("Hall", (20.0, 20.0), 3.0, names=("room-label",)),
+        Text("Front door (90 cm)", (40.0, 5.0), 3.0, names=("room-label",)),
+    )
+
+    labels = interpret(Sheet(WITH_GAP, texts)).sketch.labels
+
+    assert ["Hall"] == [label.text for label in labels]

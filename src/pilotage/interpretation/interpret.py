@@ -20,7 +20,7 @@ from pilotage.interpretation.paint import Seen, polylines_of
 from pilotage.interpretation.painted import find_painted_rooms, outlined
 from pilotage.interpretation.paper import area_of, bounds_of
 from pilotage.interpretation.parts import Parts, take_apart
-from pilotage.interpretation.sheet import Color, Mark, Role, Sheet
+from pilotage.interpretation.sheet import Color, Mark, Role, Sheet, Text
 from pilotage.interpretation.solids import rings_of
 from pilotage.interpretation.view import View, common_names, view_of
 from pilotage.interpretation.words import find_names, is_measure, role_of_words
@@ -85,7 +85,7 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     What is written on layers of furniture, doors or dimensions names none, if anything is written elsewhere.
     """
     texts = view.sheet.texts
-    told = [told_role(text.names, layers) for text in texts]
+    told = told_of_texts(texts, layers)
     things = {
         **dict.fromkeys(smaller_words(texts), "a word for furniture in small letters"),
         **dict.fromkeys(parts.aside.lengths, "the length of a dimension line"),
@@ -117,6 +117,23 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
     ):
         called = [None] * len(texts)
     return [a or b or c for a, b, c in zip(told, called, plain, strict=True)]
+
+
+def told_of_texts(texts: Sequence[Text], layers: Mapping[str, Role]) -> list[tuple[Role, str] | None]:
+    """Tell the role that a person gave to each text.
+
+    Where half of all that is no measure is called a label, this says but that they are words: what is
+    written at a door names no place there either.
+    """
+    told = [told_role(text.names, layers) for text in texts]
+    labels = [
+        number
+        for number, role in enumerate(told)
+        if role is not None and role[0] is Role.LABEL and layers.keys().isdisjoint(texts[number].names)
+    ]
+    if 2 * len(labels) < sum(not is_measure(text.text) for text in texts):
+        return told
+    return [None if number in labels else role for number, role in enumerate(told)]
 
 
 def says_text(name: str) -> bool:
