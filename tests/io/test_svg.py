@@ -411,6 +411,26 @@ def test_flowed_text_of_inkscape_names_rooms_from_the_top_of_its_region_on(tmp_p
     assert 1 == len(drawing(tmp_path, LINE + left).strokes)
 
 
+@pytest.mark.parametrize(
+    ("ids", "names"),
+    [
+        (("LAB-BIOMEDIC", "430"), ["LAB-BIOMEDIC", "430"]),
+        (("Rectangle 28", "path3719"), []),  # programs call shapes so
+        (("hall", "rect7"), []),  # one name alone is that of the drawing
+        (("hall", "sofa"), []),
+    ],
+)
+def test_without_words_areas_are_called_by_their_ids(tmp_path, ids, names):
+    rooms = "".join(
+        f'<rect id="{name}" x="{50 * place}" width="50" height="90" {STROKE}/>'
+        for place, name in enumerate(ids)
+    )
+
+    sketch = drawing(tmp_path, f'<rect id="plan" width="100" height="90" {STROKE}/>{rooms}')
+
+    assert sorted(names) == sorted(label.text for label in sketch.labels)
+
+
 def test_html_in_a_drawing_names_rooms_at_the_middle_of_its_box(tmp_path):
     html = '<div xmlns="http://www.w3.org/1999/xhtml"><p>Living</p><p>room</p></div>'
     foreign = f'<foreignObject x="10" y="20" width="80" height="60" font-size="10">{html}</foreignObject>'

@@ -1,6 +1,7 @@
 """Read an SVG file as a sheet: its marks and words in paint order, nothing understood."""
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -36,14 +37,30 @@ OPAQUE = 0.5
 LARGE = 0.1
 """A room is longer than this share of the drawing's diagonal; what is smaller and has a title is a thing."""
 
+SMALL = 0.03
+"""The same where each shape is called something and nothing is written."""
+
 SEVERAL = 2
 """So many rooms at least are a plan, though not painted."""
 
-GENERIC = frozenset((*SPACES, *DRAWN, "rectangle", "vector", "shape", "group", "layer", "floor"))
-"""Words that tell nothing of a room."""
+GENERIC = frozenset(
+    (
+        *(*SPACES, *DRAWN, "rectangle", "vector", "shape", "group", "layer", "floor"),
+        *("g", "svg", "id", "xmlid", "svgid", "copy", "combined", "compound", "union", "subtract"),
+        *("intersect", "oval", "clip", "mask", "image", "use", "fill", "stroke", "outline", "background"),
+        *("plan", "map", "floorplan", "building", "grundriss"),
+    )
+)
+"""Words that tell nothing of a room, many of programs."""
+
+NUMBER = re.compile(r"\d{2,4}[A-Za-z]?")
+"""Number of a room."""
 
 CALLED = (f"{{{INKSCAPE}}}label", "data-name", f"{{{SERIF}}}id", "id")
 """Where programs keep what a person calls a shape, the id last: it must be of letters without blanks."""
+
+ROUND = ("circle", "ellipse")
+"""Lamps, sensors and pins are drawn so."""
 
 LETTERS = 0.8
 """Outlines of words have at least so many subpaths for each letter; a shape that is called so has fewer."""
@@ -70,7 +87,7 @@ def read_svg_sheet(path: Path) -> Sheet:
         (
             *words,
             *texts_of_labels(labels, letters, words),
-            *texts_of_rooms([*shapes, *content.unseen], words),
+            *(texts_of_rooms([*shapes, *content.unseen], words) or (() if words else texts_of_ids(shapes))),
         ),
         bounds,
         content.background,
@@ -223,11 +240,12 @@ def texts_of_labels(found: Labeled, letters: Labeled, written: Sequence[Text]) -
             yield Text(words, middle, 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
 
 
-def texts_of_rooms(shapes: Sequence[Shape], written: Sequence[Text]) -> Iterator[Text]:
+def texts_of_rooms(shapes: Sequence[Shape], written: Sequence[Text]) -> list[Text]:
     """Read what shapes are called by their titles, if nothing is written, and by the ids of rooms.
 
     A shape in which something is written needs no other name; a small one with a title is a thing.
     """
+    found = []
     places = shapely.points(np.reshape([text.position for text in written], (-1, 2)))
     smallest = LARGE * diagonal_of(shapes) if shapes else 0.0
     for shape in shapes:
@@ -236,11 +254,48 @@ def texts_of_rooms(shapes: Sequence[Shape], written: Sequence[Text]) -> Iterator
         words = (title_of(drawn.element) if is_large and not written else "") or room_name(drawn)
         if not words or drawn.outlined:
             continue
-        rings = [flipped(ring).vertices for ring in flatten(shape.outline, FLATNESS * diagonal_of([shape]))]
-        area = shapely.union_all([shapely.Polygon(ring).buffer(0.0) for ring in rings if len(ring) > 2])
+        area = area_of(shape)
         if not area.is_empty and not shapely.intersects(area, places).any():
-            x, y = shapely.get_coordinates(shapely.point_on_surface(area))[0].tolist()
-            yield Text(words, (x, y), 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
+            found.append(text_within(area, words, drawn))
+    return found
+
+
+def texts_of_ids(shapes: Sequence[Shape]) -> list[Text]:
+    """Read what shapes are called by their ids in a drawing without words: areas that are not small.
+
+    An area that holds several others is no room. One name alone is that of the drawing.
+    """
+    smallest = SMALL * diagonal_of(shapes) if shapes else 0.0
+    called = [
+        (shape, words, area)
+        for shape in shapes
+        if diagonal_of([shape]) >= smallest
+        and local_name(shape.drawn.element.tag) not in ROUND
+        and (words := own_name(shape.drawn))
+        and guessed_role(shape.drawn.names) is None
+        and not (area := area_of(shape, closed=True)).is_empty
+    ]
+    areas = np.array([area for *_, area in called], dtype=object)
+    inner = shapely.point_on_surface(areas)
+    texts = [
+        text_within(area, words, shape.drawn)
+        for shape, words, area in called
+        if shapely.contains(area, inner).sum() <= SEVERAL
+    ]
+    return texts if len(texts) >= SEVERAL else []
+
+
+def area_of(shape: Shape, *, closed: bool = False) -> shapely.Geometry:
+    """Return what a shape encloses, y up; `closed` leaves out what only its chords would close."""
+    lines = flatten(shape.outline, FLATNESS * diagonal_of([shape]))
+    rings = [flipped(line).vertices for line in lines if line.closed or not closed]
+    return shapely.union_all([shapely.Polygon(ring).buffer(0.0) for ring in rings if len(ring) > 2])
+
+
+def text_within(area: shapely.Geometry, words: str, drawn: Drawn) -> Text:
+    """Write what a shape is called into its area."""
+    x, y = shapely.get_coordinates(shapely.point_on_surface(area))[0].tolist()
+    return Text(words, (x, y), 0.0, 0.0, drawn.names, drawn.groups, source_of(drawn))
 
 
 def title_of(element: Element) -> str:
@@ -256,8 +311,13 @@ def room_name(drawn: Drawn) -> str:
     above = drawn.names[: len(drawn.names) - len(list(names_of(drawn.element)))]
     if not (is_room(drawn.names[-1:]) or holds_rooms(above[-1:])) or guessed_role(drawn.names) is not None:
         return ""
-    written = (drawn.element.get(name, "") for name in CALLED)
-    return next((name for name in written if set(name_words(name)) - GENERIC), "")
+    return own_name(drawn)
+
+
+def own_name(drawn: Drawn) -> str:
+    """Return what a person called a shape, as a word or the number of a room; nothing if programs did."""
+    written = [drawn.element.get(name, "") for name in CALLED]
+    return next((name for name in written if NUMBER.fullmatch(name) or set(name_words(name)) - GENERIC), "")
 
 
 def source_of(drawn: Drawn) -> str:
