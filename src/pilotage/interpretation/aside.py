@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from pilotage.interpretation.dashed import find_axes
 from pilotage.interpretation.dimensions import find_dimensions
+from pilotage.interpretation.margins import find_margins
 from pilotage.interpretation.meanings import Meaning
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.plates import find_plates
@@ -23,6 +24,8 @@ class Aside:
     signs: AbstractSet[int]  # discs, compasses and plates
     written: AbstractSet[int]  # texts of these
     axes: AbstractSet[int]  # dashed lines through the building and beyond
+    margins: AbstractSet[int]  # what stands beside the building on its sheet
+    notes: AbstractSet[int]  # texts of these
 
     @property
     def meanings(self) -> dict[int, Meaning]:
@@ -30,6 +33,9 @@ class Aside:
         return {
             **dict.fromkeys(self.measuring, Meaning(Role.IGNORE, "a dimension line")),
             **dict.fromkeys(self.axes, Meaning(Role.IGNORE, "an axis or a section through the building")),
+            **dict.fromkeys(
+                self.margins, Meaning(Role.IGNORE, "beside the building: a frame, notes or a grid")
+            ),
             **dict.fromkeys(
                 self.signs, Meaning(Role.IGNORE, "a disc in a color of its own, a compass or a plate")
             ),
@@ -45,4 +51,7 @@ def set_aside(view: View, seen: Sequence[Seen]) -> tuple[Aside, list[Seen]]:
     signs |= find_plates(sheet, unnamed)
     axes = find_axes(sheet, [mark for mark in unnamed if mark.number not in measuring | signs], diagonal)
     left = [mark for mark in seen if mark.number not in measuring | signs | axes]
-    return Aside(measuring, lengths, signs, written, axes), left
+    margins, notes = find_margins(sheet, left, diagonal)
+    margins -= view.guessed.keys()
+    left = [mark for mark in left if mark.number not in margins]
+    return Aside(measuring, lengths, signs, written, axes, margins, notes), left

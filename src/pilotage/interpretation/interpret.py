@@ -92,6 +92,7 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
         **dict.fromkeys(view.written, "the name of the furniture around it"),
         **dict.fromkeys(written_upon(parts.openings.bars, texts), "the name of a door or a window"),
         **dict.fromkeys(parts.aside.written, "the north of a compass"),
+        **dict.fromkeys(parts.aside.notes, "written beside the building"),
     }
     plain = [
         (Role.IGNORE, things[number]) if number in things else role_of_words(text.text)

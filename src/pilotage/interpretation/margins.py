@@ -1,0 +1,141 @@
+"""Find what stands beside the building on its sheet: the frame, boxes of notes, and the bubbles of a grid."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import rustworkx
+import shapely
+
+from pilotage.geometry import Array
+from pilotage.interpretation.bars import NEAR
+from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.paper import boxes_of, holds, is_box
+from pilotage.interpretation.sheet import Bounds, Sheet
+from pilotage.interpretation.signs import is_circle
+
+EDGE = 0.02
+"""A frame is this near to the edge of the page on all sides, as a share of the page's diagonal."""
+
+BUILDING = 0.25
+"""The building is at least so large, as a share of all that is drawn: else several stand side by side."""
+
+LETTERS = 40
+"""Notes, a legend or a title block have at least so many letters in one box; names of rooms have fewer."""
+
+BUBBLE = 0.04
+"""The bubble of a grid line is no wider than this share of the drawing's diagonal."""
+
+BUBBLES = 4
+"""A grid has at least so many bubbles beside the building."""
+
+SHORT = 3
+"""A grid line is called by at most so many letters."""
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Marks that touch each other, and what holds them."""
+
+    numbers: list[int]  # of the marks, in their sheet
+    bounds: Bounds
+
+    @property
+    def area(self) -> float:
+        """Of what holds the marks."""
+        left, bottom, right, top = self.bounds
+        return (right - left) * (top - bottom)
+
+
+def find_margins(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set[int], set[int]]:
+    """Find the marks that stand beside the building and explain it, and the texts in them, by number.
+
+    The building is the largest group of marks that touch each other. A box along the edge of the page is
+    a frame if the building stands free in it.
+    """
+    groups = sorted(groups_of(sheet, seen, diagonal), key=lambda group: group.area, reverse=True)
+    frames = set()
+    if len(groups) > 1 and is_frame(sheet, groups[0]) and groups[1].area >= BUILDING * groups[0].area:
+        frames = set(groups[0].numbers)
+        groups = groups[1:]
+    if len(groups) < 2:
+        return frames, set()
+    whole = np.array([group.bounds for group in groups])
+    all_drawn = Group([], (*whole[:, :2].min(axis=0).tolist(), *whole[:, 2:].max(axis=0).tolist()))
+    if groups[0].area < BUILDING * all_drawn.area:
+        return frames, set()
+    beside = [group for group in groups[1:] if not meet(group.bounds, groups[0].bounds)]
+    places = [(*text.position, *text.position) for text in sheet.texts]
+    boxes = [group.bounds for group in beside if is_note(sheet, group, places)]
+    bubbles = bubbles_among(sheet, beside, places, diagonal)
+    boxes += bubbles if len(bubbles) >= BUBBLES else []
+    found = {n for group in beside if any(holds(box, group.bounds) for box in boxes) for n in group.numbers}
+    texts = {number for number, place in enumerate(places) if any(holds(box, place) for box in boxes)}
+    return frames | found, texts
+
+
+def groups_of(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Group]:
+    """Group the marks whose outlines touch each other; dashed lines join nothing."""
+    marks = [mark for mark in seen if (pen := sheet.marks[mark.number].pen) is None or not pen.dashed]
+    if not marks:
+        return []
+    outlines = np.array(
+        [shapely.boundary(mark.area) if mark.line.is_empty else mark.line for mark in marks], dtype=object
+    )
+    pairs = shapely.STRtree(outlines).query(outlines, predicate="dwithin", distance=NEAR * diagonal)
+    network = rustworkx.PyGraph(multigraph=False)
+    network.add_nodes_from(range(len(marks)))
+    network.add_edges_from_no_data(list(zip(*pairs.tolist(), strict=True)))
+    boxes: Array = boxes_of([sheet.marks[mark.number] for mark in marks])
+    found = []
+    for part in rustworkx.connected_components(network):
+        own = boxes[sorted(part)]
+        (left, bottom), (right, top) = own[:, :2].min(axis=0).tolist(), own[:, 2:].max(axis=0).tolist()
+        found.append(Group([marks[place].number for place in sorted(part)], (left, bottom, right, top)))
+    return found
+
+
+def is_frame(sheet: Sheet, group: Group) -> bool:
+    """Tell whether a group is one box along the edge of the page."""
+    if sheet.page is None or len(group.numbers) != 1 or not is_box(sheet.marks[group.numbers[0]]):
+        return False
+    left, bottom, right, top = sheet.page
+    reach = EDGE * float(np.hypot(right - left, top - bottom))
+    return bool(np.abs(np.subtract(group.bounds, sheet.page)).max() <= reach)
+
+
+def is_note(sheet: Sheet, group: Group, places: Sequence[Bounds]) -> bool:
+    """Tell whether a group is a box, maybe with lines in it, in which much is written."""
+    boxes = [number for number in group.numbers if is_box(sheet.marks[number])]
+    if len(boxes) != 1:
+        return False
+    written = [
+        text.text for text, place in zip(sheet.texts, places, strict=True) if holds(group.bounds, place)
+    ]
+    return sum(map(len, written)) >= LETTERS
+
+
+def bubbles_among(
+    sheet: Sheet, groups: Sequence[Group], places: Sequence[Bounds], diagonal: float
+) -> list[Bounds]:
+    """List what holds the circles around a letter or a number."""
+    return [
+        group.bounds
+        for group in groups
+        if len(group.numbers) == 1 and is_circle(sheet.marks[group.numbers[0]], BUBBLE * diagonal)
+        if [
+            len(text.text.strip()) <= SHORT
+            for text, place in zip(sheet.texts, places, strict=True)
+            if holds(group.bounds, place)
+        ]
+        == [True]
+    ]
+
+
+def meet(first: Bounds, second: Bounds) -> bool:
+    """Tell whether two boxes have a point in common.
+
+    >>> meet((0.0, 0.0, 2.0, 2.0), (1.0, 1.0, 3.0, 3.0)), meet((0.0, 0.0, 2.0, 2.0), (3.0, 0.0, 4.0, 2.0))
+    (True, False)
+    """
+    return first[0] <= second[2] and second[0] <= first[2] and first[1] <= second[3] and second[1] <= first[3]
