@@ -31,6 +31,17 @@ def test_lines_just_half_as_wide_as_walls_are_furniture_if_filled_things_are_dra
     assert [Role.WALL] * 4 == roles((*WITH_GAP, table))
 
 
+def test_filled_things_in_a_narrower_pen_of_their_own_are_furniture():
+    beds = [box(10 * x, 60, 10 * x + 7, 72, pen=Pen(BLACK, 0.7), fill=CREAM) for x in (1, 3, 6, 8)]
+    name = Text("Bedroom", (13.5, 66.0), 2.0)  # over a bed
+    marks = (*WITH_GAP, *beds)
+
+    found = interpret(Sheet(marks, (name,)))
+
+    assert [*[Role.WALL] * 3, *[Role.FURNITURE] * 4] == [meaning.role for meaning in found.meanings]
+    assert [Role.WALL] * 5 == roles(marks[:5])  # two may be anything
+
+
 def test_a_long_thin_wall_is_one_though_shelves_stand_along_it():
     outer = stroke((5, 0), (100, 0), (100, 75)), stroke((95, 80), (0, 80), (0, 5))  # ways out at two corners
     wall = stroke((50, 0), (50, 36), width=0.3)

@@ -58,6 +58,7 @@ VOCABULARY: Mapping[Role, str] = {
     " cabinets cupboard cupboards desks chairs tables beds armchair armchairs stool stools toilets sinks"
     " wardrobe wardrobes dresser dressers nightstand nightstands sideboard sideboards television tv microwave"
     " basin basins washbasin tub stove oven fridge refrigerator dishwasher countertop countertops worktop"
+    " crate crates pallet pallets"
     " lamp lamps lights lighting sockets outlets switches radiator radiators people cars vehicles"
     " einrichtung möblierung moeblierung inventar regal regale schrank schränke schraenke tisch tische stuhl"
     " stühle stuehle bett"

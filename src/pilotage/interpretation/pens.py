@@ -1,6 +1,7 @@
 """Tell by the pen which lines draw walls, and which rather furniture, thresholds or windows."""
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -23,6 +24,12 @@ Furniture is drawn so; also in a pen just this wide, if filled things have it. I
 too: where those in a thicker pen enclose too little, the second share tells. A hairline is not thin: files
 have it where no width was chosen.
 """
+
+SEVERAL = 3
+"""So many filled things at least are furniture if their pen is narrower than usual, at all."""
+
+MOST = 0.75
+"""And if they are so many of all that it draws, as a share: over a bed may stand the name of its room."""
 
 BESIDE = 0.005
 """A wall is drawn along the outline of a room if it comes this near, as a share of the drawing's diagonal."""
@@ -51,11 +58,7 @@ def by_style(
     thin = share * usual.width
     is_black = not is_colored(usual)
     places = [(*text.position, *text.position) for text in sheet.texts if names_place(text)]
-    fine = {
-        sheet.marks[mark.number].pen
-        for mark in seen
-        if is_thing(sheet.marks[mark.number], places) and is_just(sheet.marks[mark.number].pen, thin)
-    }
+    fine = fine_pens([sheet.marks[mark.number] for mark in seen], places, usual.width, thin)
     main: list[shapely.Geometry] = []
     marginal: list[shapely.Geometry] = []
     things: list[shapely.Geometry] = []
@@ -81,6 +84,18 @@ def by_style(
         for lines in (main, marginal, things)
     )
     return black, other, around
+
+
+def fine_pens(marks: Sequence[Mark], places: Sequence[Bounds], usual: float, thin: float) -> set[Pen | None]:
+    """Find the pens of furniture: just thin, or narrower than usual and mostly of things."""
+    things = Counter(mark.pen for mark in marks if is_thing(mark, places))
+    drawn = Counter(mark.pen for mark in marks)
+    return {
+        pen
+        for pen, count in things.items()
+        if is_just(pen, thin)
+        or (pen is not None and 0.0 < pen.width < usual and count >= max(SEVERAL, MOST * drawn[pen]))
+    }
 
 
 def is_just(pen: Pen | None, width: float) -> bool:
