@@ -114,3 +114,19 @@ def test_a_line_in_a_color_that_crosses_another_does_not_cut_it():
     seen = look_at(Sheet((bar(0.0, 12.0, BLACK, 1.0), crossing)), range(2), WHITE, DIAGONAL)
 
     assert seen[0].line.length == pytest.approx(12.0)
+
+
+@pytest.mark.parametrize(("floor", "is_open"), [((0.93, 0.95, 0.96), True), ((0.85, 0.95, 0.85), False)])
+def test_a_line_in_the_color_of_the_floor_below_erases_a_wall(floor, is_open):
+    pale = (0.93, 0.95, 0.96)
+    marks = (
+        Mark((Polyline.through([(0, 0), (9, 0), (9, 9), (0, 9)], closed=True),), None, floor),
+        Mark((Polyline.through([(0, 5), (9, 5)]),), Pen(BLACK, 0.5)),
+        Mark((Polyline.through([(3, 5), (5, 5)]),), Pen(pale, 0.7)),
+    )
+
+    seen = look_at(Sheet(marks), [0, 1, 2], (1.0, 1.0, 0.8), 12.0)
+
+    lengths = {mark.number: mark.line.length for mark in seen}
+    assert (7.0 if is_open else 9.0) == pytest.approx(lengths[1])
+    assert is_open == (2 not in lengths)

@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from pilotage.geometry import Array, Polyline, numbered
-from pilotage.interpretation.paper import FAINT
+from pilotage.interpretation.paper import FAINT, SAME
 from pilotage.interpretation.sheet import Color, Mark, Sheet
 
 EDGE = 0.0005
@@ -24,6 +24,9 @@ AS_WIDE = 0.8
 
 ALONG = 3.0
 """What a line in a color hides is longer than this many of its widths; it crosses other lines."""
+
+MOSTLY = 0.5
+"""A line in the color of a floor erases if it lies on it by so much of its length, as a share."""
 
 NOTHING = shapely.GeometryCollection()
 
@@ -46,12 +49,10 @@ def shapes_of(seen: Sequence[Seen]) -> NDArray[np.object_]:
 def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float) -> list[Seen]:
     """Find what is seen of the marks with these numbers; a mark of which nothing is seen is left out."""
     marks = [sheet.marks[number] for number in numbers]
-    inks = channels([None if mark.pen is None else mark.pen.color for mark in marks])
-    fills = channels([mark.fill for mark in marks])
-    widths = np.array([np.nan if mark.pen is None else mark.pen.width for mark in marks])
+    inks, fills, widths = painted_with(marks)
     lines, areas = lines_of(marks), areas_of(marks)
-    inked = contrast(inks, ground) >= FAINT
-    hiding = (contrast(inks, ground) < FAINT) | (np.ptp(inks, axis=1) >= UNLIKE)
+    inked = (contrast(inks, ground) >= FAINT) & ~of_floor(marks, lines, areas, ground)
+    hiding = ~inked | (np.ptp(inks, axis=1) >= UNLIKE)
     tracks = tracks_of(lines, np.where(hiding, widths, 0.0))
     covers = shapely.buffer(areas, -EDGE * diagonal, join_style="mitre")
     lines[~inked] = NOTHING
@@ -72,6 +73,32 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
     is_left = ~(shapely.is_empty(lines) & shapely.is_empty(areas))
     found = zip(numbers, lines, areas, whole.tolist(), strict=True)
     return [Seen(*mark) for mark, is_seen in zip(found, is_left, strict=True) if is_seen]
+
+
+def painted_with(marks: Sequence[Mark]) -> tuple[Array, Array, Array]:
+    """Return the colors of pens and of fills, (n, 3), and the widths of pens, (n,); nan without one."""
+    inks = channels([None if mark.pen is None else mark.pen.color for mark in marks])
+    widths = np.array([np.nan if mark.pen is None else mark.pen.width for mark in marks])
+    return inks, channels([mark.fill for mark in marks]), widths
+
+
+def of_floor(
+    marks: Sequence[Mark], lines: NDArray[np.object_], areas: NDArray[np.object_], ground: Color
+) -> NDArray[np.bool_]:
+    """Tell which lines (n,) are in the pale color of a floor below that they lie on, and erase."""
+    inks, fills, widths = painted_with(marks)
+    found = np.zeros(len(lines), dtype=bool)
+    pale = np.flatnonzero(contrast(inks, ground) < UNLIKE)
+    floors = np.flatnonzero(~shapely.is_empty(areas))
+    later, earlier = shapely.STRtree(areas[floors]).query(lines[pale], predicate="intersects")
+    later, earlier = pale[later], floors[earlier]
+    same = (earlier < later) & (contrast(inks[later], fills[earlier]) < SAME)
+    later, earlier = later[same], earlier[same]
+    if len(later):
+        below = shapely.buffer(areas[earlier], widths[later] / 2.0)
+        on_floor = shapely.length(shapely.intersection(lines[later], below))
+        found[later[on_floor >= MOSTLY * shapely.length(lines[later])]] = True
+    return found
 
 
 def channels(colors: Sequence[Color | None]) -> Array:
