@@ -74,6 +74,13 @@ def test_what_is_filled_within_thin_lines_are_rooms_where_they_cover_most_of_a_b
     assert 2 == len(graph_of((OUTSIDE, *rooms)).cells)
 
 
+def test_what_is_filled_within_a_thin_line_is_furniture_in_narrow_rooms_too():
+    walls = [stroke((0, y), (100, y)) for y in (9, 18, 27, 36)]
+    shelves = [box(5, y + 1, 95, y + 8, pen=THIN, fill=CREAM) for y in (0, 9, 18, 27)]
+
+    assert [*[Role.WALL] * 5, *[Role.FURNITURE] * 4] == roles((OUTSIDE, *walls, *shelves))
+
+
 def test_a_thin_box_beside_a_building_is_a_legend_and_no_room():
     legend = box(40, -25, 90, -8, pen=THIN)
 

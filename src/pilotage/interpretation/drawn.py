@@ -73,9 +73,13 @@ class Drawn:
         return put_together(self.main, self.loose, self.things)
 
     def may_part(self, gap: float) -> shapely.Geometry:
-        """Return the lines in a color, dashed and thin ones that may part rooms: furniture does not."""
+        """Return the lines in a color, dashed and thin ones that may part rooms: furniture does not.
+
+        Closing wide gaps fills narrow rooms, and closing narrow ones leaves some open: the larger counts.
+        """
         covered = enclosed(NOTHING, self.things, GRAIN * gap)
-        is_furniture = covered < FURNISHED * enclosed(self.solid, self.lines, gap)
+        around = max(enclosed(self.solid, self.lines, closed) for closed in (gap, GRAIN * gap))
+        is_furniture = covered < FURNISHED * around
         return self.loose if is_furniture else put_together(self.loose, self.things)
 
     @cached_property
