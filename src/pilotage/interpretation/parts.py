@@ -11,6 +11,7 @@ from pilotage.interpretation.aside import Aside, set_aside
 from pilotage.interpretation.dashed import find_dashed
 from pilotage.interpretation.doors import find_doors
 from pilotage.interpretation.drawn import Walls
+from pilotage.interpretation.ends import led_on
 from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.openings import Openings, find_openings
 from pilotage.interpretation.paint import Seen
@@ -47,7 +48,7 @@ def take_apart(view: View) -> Parts:
     aside, built = set_aside(view, view.all_but(NO_DOORS, view.visible))
     doors = find_doors(sheet, built, diagonal)
     areas = set() if doors else find_areas(sheet, view.called, diagonal)  # a leaf opens these, too
-    built = [mark for mark in built if mark.number not in areas]
+    built = led_on(sheet, [mark for mark in built if mark.number not in areas], diagonal)
     openings, left = find_openings(view, built, doors)
     sides = {bridge.number for bridge in openings.bridges}
     lines = [mark for mark in left if mark.number in sides or view.role(mark) not in NO_WALLS]
