@@ -25,6 +25,18 @@ def test_a_small_disc_in_a_color_of_its_own_is_a_sign():
     assert ([Role.IGNORE], ()) == roles(disc(20, 20, 3, fill=YELLOW))
 
 
+@pytest.mark.parametrize(
+    ("words", "names"), [(("Kitchen", "Bath"), {"Kitchen", "Bath"}), (("Bath",), {"1", "Bath"})]
+)
+def test_numbers_in_discs_name_no_rooms_where_many_more_words_do(words, names):
+    texts = [Text("1", (20.0, 20.0), 2.0)]
+    texts += [Text(word, (70.0, 20.0 + 20.0 * place), 2.0) for place, word in enumerate(words)]
+
+    found, labels = roles(disc(20, 20, 3, fill=YELLOW), texts=texts)
+
+    assert ([Role.IGNORE], names) == (found, {label.text for label in labels})
+
+
 def test_a_column_in_the_color_of_walls_and_a_round_hall_are_built():
     found, _ = roles(disc(20, 20, 3, fill=BLACK), disc(30, 55, 12, Pen(BLACK, 1.0), YELLOW))
 

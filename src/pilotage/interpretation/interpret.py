@@ -91,7 +91,7 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
         **dict.fromkeys(parts.aside.lengths, "the length of a dimension line"),
         **dict.fromkeys(view.written, "the name of the furniture around it"),
         **dict.fromkeys(written_upon(parts.openings.bars, texts), "the name of a door or a window"),
-        **dict.fromkeys(parts.aside.written, "the north of a compass"),
+        **dict.fromkeys(parts.aside.written, "the north of a compass, or a number in a disc"),
         **dict.fromkeys(parts.aside.notes, "written beside the building"),
     }
     plain = [

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
@@ -14,6 +15,12 @@ LARGEST = 0.1
 
 ROUND = 0.97
 """Area of a circle as drawn, as a share of that of a true one as long: one of twelve chords has 0.977."""
+
+SHORT = 2
+"""What points at something from a disc has at most so many letters or digits."""
+
+MORE = 2
+"""So many times as many words name places beside such numbers."""
 
 NORTHS = frozenset(("N", "\N{CYRILLIC CAPITAL LETTER ES}", "北", "북"))
 """How a compass marks the north."""
@@ -49,7 +56,22 @@ def find_signs(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set
         if len(text.text.strip()) == 1
         and any(holds(box, (*text.position, *text.position)) for box in compasses)
     }
-    return discs | parts, texts
+    return discs | parts, texts | numbers_of(sheet, discs)
+
+
+def numbers_of(sheet: Sheet, discs: AbstractSet[int]) -> set[int]:
+    """Find the numbers and letters in discs, where many more words name places: they point at something.
+
+    Where few words are written, such numbers name the rooms.
+    """
+    boxes = [bounds_of(sheet.marks[number]) for number in sorted(discs)]
+    found = {
+        number
+        for number, text in enumerate(sheet.texts)
+        if len(text.text.strip()) <= SHORT and any(holds(box, (*text.position,) * 2) for box in boxes)
+    }
+    words = [text for text in sheet.texts if sum(map(str.isalpha, text.text)) > SHORT]
+    return found if len(words) >= MORE * len(found) else set()
 
 
 def around(box: Bounds) -> Bounds:
