@@ -1,5 +1,7 @@
 """Doors that are marked on walls without a gap."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -91,6 +93,13 @@ def test_one_bar_is_a_door_if_it_is_called_so():
     assert 1 == number_of_doors((OUTSIDE, wall, stroke(*bar, names=("door-bath",))))
     assert not number_of_doors((OUTSIDE, wall, stroke(*bar)))
     assert not number_of_doors((OUTSIDE, wall, stroke((0, 30), (0, 42), names=("door",))))
+
+
+@pytest.mark.parametrize(("name", "doors"), [("fp-door", 1), ("route", 0)])
+def test_a_swing_that_is_called_a_door_and_stands_on_a_wall_with_an_end_opens_it(name, doors):
+    swing = replace(stroke((50, 40), (54, 41), (57, 44), (58, 48), color=RED), names=(name,))
+
+    assert doors == number_of_doors((OUTSIDE, *WALLS, swing))
 
 
 @pytest.mark.parametrize(

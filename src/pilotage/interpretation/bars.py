@@ -95,6 +95,8 @@ def find_bars(
     for places in shapes.values():
         least = 1 if seen[places[0]].number in named else ALIKE
         bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
+        if least == 1:
+            bars += [bar for place in places for bar in curved_bars(sheet, seen, place, diagonal)]
         if len({bar.place for bar in bars}) < least:
             continue
         own = dashed.union(seen[place].number for place in places)
@@ -143,6 +145,22 @@ def bars_of(
     return [
         Bar(place, middle + np.array([[-0.5], [0.5]]) * wide * side, float(width))
         for side in (sides if is_square else sides[:1])
+    ]
+
+
+def curved_bars(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
+    """Return the bars that a swing may be that is named a door: it stands on a wall with an end."""
+    mark = sheet.marks[seen[place].number]
+    if len(mark.outlines) != 1 or mark.outlines[0].closed or len(mark.outlines[0]) < 3:
+        return []
+    ends = mark.outlines[0].vertices[[0, -1]]
+    if not SIZES[0] * diagonal <= np.hypot(*(ends[1] - ends[0])) <= SIZES[1] * diagonal:
+        return []
+    half = USUAL * diagonal / 2.0
+    return [
+        Bar(place, foot + half * np.array([[-1.0], [1.0]]) * along, 0.0, tip[None])
+        for foot, tip in (ends, ends[::-1])
+        for along in np.eye(2)
     ]
 
 
