@@ -13,6 +13,7 @@ WALLS = tuple(stroke((x, 0), (x, 80)) for x in (25, 50, 75))
 BARS = {
     "heavy": [stroke((x, 30), (x, 42), width=3.0) for x in (25, 50, 75)],
     "squares": [box(x - 1, 30, x + 1, 32, fill=BLACK) for x in (25, 50, 75)],
+    "boxes": [box(x - 3, 30.3, x + 3.3, 40, fill=RED) for x in (25, 50, 75)],
     "across": [stroke((x - 3, 30), (x + 3, 30), color=RED) for x in (25, 50, 75)],
     "upright": [stroke((x, 30), (x + 8, 30), color=RED) for x in (25, 50, 75)],
     "outlined": [box(x - 1, 30, x + 1, 42, pen=Pen(RED, 0.1)) for x in (25, 50, 75)],
@@ -85,6 +86,12 @@ def test_where_walls_have_gaps_no_bar_is_a_door():
     columns = [box(x - 1, 20, x + 1, 22, fill=BLACK) for x in (25, 50, 75)]
 
     assert 3 == number_of_doors((OUTSIDE, *gaps, *columns))
+
+
+def test_boxes_beside_a_wall_are_no_doors():
+    cabinets = [box(x, 30, x + 5, 40, fill=RED) for x in (25, 50, 75)]
+
+    assert not number_of_doors((OUTSIDE, *WALLS, *cabinets))
 
 
 def test_one_bar_is_a_door_if_it_is_called_so():

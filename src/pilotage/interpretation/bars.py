@@ -124,7 +124,10 @@ def find_fronts(
 def bars_of(
     sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float, largest: float = SIZES[1]
 ) -> list[Bar]:
-    """Return the bar that a mark draws; of a square or a line all that it may be; none for all else."""
+    """Return the bar that a mark draws; of a square or a line all that it may be; none for all else.
+
+    So of a box without a line: the wall runs through its middle, along either side.
+    """
     mark = sheet.marks[seen[place].number]
     if len(mark.outlines) != 1 or len(mark.outlines[0]) > 5:
         return []
@@ -137,6 +140,8 @@ def bars_of(
     if not SIZES[0] * diagonal <= length <= largest * diagonal:
         return []
     is_square = mark.fill is not None and width >= SQUARE * length and length <= LARGEST_SQUARE * diagonal
+    if mark.pen is None and SLENDER * length < width < SQUARE * length and len(box) == 5:
+        return [Bar(place, middle + np.array([[-0.5], [0.5]]) * side, 0.0) for side in sides]
     if not is_square and width > SLENDER * length:
         return []
     if len(points) == 2:
@@ -181,7 +186,9 @@ def parting_bars(bars: Sequence[Bar], others: Sequence[Seen], least: int, diagon
     if len({bar.place for bar in on_wall}) < least:
         return []
     grain = NEAR * diagonal / 2.0
-    pieces = on_grid(np.concatenate([segments.ends, *(bar.ends[None] for bar in on_wall)]), grain)
+    joints = [bar.ends[:, None] + 2.0 * grain * np.array([[-1.0], [1.0]]) * bar.across for bar in on_wall]
+    pieces = np.concatenate([segments.ends, *(bar.ends[None] for bar in on_wall), *joints])
+    pieces = on_grid(pieces, grain)
     noded = shapely.union_all(shapely.multilinestrings(shapely.linestrings(pieces)), grid_size=grain)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
     if not len(faces):
