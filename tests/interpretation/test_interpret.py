@@ -126,6 +126,17 @@ def test_lines_in_a_color_that_are_named_walls_stay_though_they_end_short_of_oth
     assert ([[52.0, 40.0], [60.0, 40.0]] in [line.vertices.tolist() for line in found]) is (name == "WALLS")
 
 
+def test_two_panes_along_the_faces_of_a_wall_close_one_opening():
+    outer = stroke((100, 10), (100, 0), (0, 0), (0, 80), (100, 80), (100, 70), width=3.0)
+    walls = stroke((50, 0), (50, 30), width=3.0), stroke((50, 42), (50, 80), width=3.0)
+    panes = [stroke((x, 10), (x, 70), width=0.5) for x in (99, 101)]
+    island = stroke((70, 30), (78, 30), (78, 50), (70, 50), (70, 30), width=0.5)
+
+    cells = graph_of((outer, *walls, *panes, island)).cells
+
+    assert {"hall", "bath"} == {cell.label for cell in cells}
+
+
 def test_dashed_axes_run_through_a_building_and_beyond_and_part_no_rooms():
     walls = [box(*sides, fill=BLACK) for sides in ((0, 0, 100, 4), (0, 76, 100, 80), (0, 0, 4, 80))]
     walls += [box(*sides, fill=BLACK) for sides in ((96, 0, 100, 30), (96, 42, 100, 80))]

@@ -65,6 +65,7 @@ class Drawn:
     floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
     told: Sequence[Polyline]  # doors that the file itself tells
+    pen: float  # width of the pen that draws the middle of all ink
     diagonal: float
 
     @cached_property

@@ -1,5 +1,7 @@
 """Walls that are single lines, beside lines in other pens."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -41,7 +43,8 @@ def black_lines(drawn: Drawn) -> Walls | None:
     body = shapely.union_all(shapely.buffer(parts_of(main), edge))  # all at once is far slower
     others = shapely.difference(shapely.union_all(marginal), body)
     width = drawn.door_width or USUAL_DOOR * drawn.diagonal
-    near = shapely.buffer(body, TOUCHING * width)
+    jamb = max(TOUCHING * width, drawn.pen)  # panes lie along the faces of a wall, or amid it
+    near = shapely.buffer(body, jamb)
     lines = [part for part in parts_of(shapely.line_merge(others)) if part.geom_type == "LineString"]
     bridges = [part for part in lines if near.covers(shapely.boundary(part))]
     glazed = shapely.union_all([main, *(part for part in bridges if not part.is_closed)])
@@ -73,7 +76,22 @@ def black_lines(drawn: Drawn) -> Walls | None:
     )
     rest = without_islands(whole, body, edge)
     long = [part for part in parts_of(rest) if extent(part) >= least]
-    return Walls(drawn.solid, shapely.union_all([main, parting, *outer, *long]), drawn.colors)
+    beside = without_twins(outer, long, 2.0 * jamb)
+    return Walls(drawn.solid, shapely.union_all([main, parting, *beside]), drawn.colors)
+
+
+def without_twins(
+    panes: Sequence[shapely.LineString], others: Sequence[shapely.Geometry], reach: float
+) -> list[shapely.Geometry]:
+    """Keep one of the panes that lie side by side in an opening, and of the other lines those beside none."""
+    kept: list[shapely.Geometry] = []
+    strips: list[shapely.Geometry] = []
+    for pane, strip in zip(panes, shapely.buffer(panes, reach), strict=True):
+        if not any(other.covers(pane) for other in strips):
+            kept.append(pane)
+            strips.append(strip)
+    around = shapely.union_all(strips)
+    return [*kept, *(line for line in others if not around.covers(line))]
 
 
 def is_mostly(line: shapely.Geometry, share: shapely.Geometry) -> bool:

@@ -9,7 +9,7 @@ import shapely
 from pilotage.interpretation.doors import Door
 from pilotage.interpretation.drawn import Drawn, Walls
 from pilotage.interpretation.paint import NOTHING, Seen
-from pilotage.interpretation.pens import THIN, by_style
+from pilotage.interpretation.pens import THIN, by_style, usual_pen
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import dark_areas
 from pilotage.interpretation.thick_walls import faced_walls, named_walls, painted_walls
@@ -51,6 +51,7 @@ def find_walls(
         floors=floors,
         doors=doors,
         told=sheet.openings,
+        pen=usual_pen(seen, sheet).width,
         diagonal=diagonal,
     )
     tried = chain(
