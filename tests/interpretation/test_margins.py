@@ -28,6 +28,13 @@ def test_a_box_along_the_edge_of_the_page_around_a_building_is_a_frame():
     assert ([Role.IGNORE], ()) == drawn_as(frame, page=(-30.0, -30.0, 150.0, 100.0))
 
 
+@pytest.mark.parametrize(("words", "role"), [(NOTES, Role.IGNORE), ("Garden", Role.WALL)])
+def test_a_thin_box_around_a_building_with_a_title_block_is_a_frame(words, role):
+    sheet = box(-20, -40, 120, 100, pen=THIN), box(60, -40, 120, -20, pen=THIN)
+
+    assert [role] * 2 == drawn_as(*sheet, texts=[Text(words, (90.0, -30.0), 2.0)])[0]
+
+
 @pytest.mark.parametrize("page", [None, (-80.0, -80.0, 200.0, 150.0)])
 def test_a_wall_around_the_plot_is_no_frame(page):
     assert ([Role.WALL], ()) == drawn_as(box(-29, -29, 149, 99, pen=THIN), page=page)

@@ -23,6 +23,9 @@ BUILDING = 0.25
 LETTERS = 40
 """Notes, a legend or a title block have at least so many letters in one box; names of rooms have fewer."""
 
+THIN = 0.5
+"""A frame with a title block is drawn in pens at most so wide, as a share of that of the building."""
+
 BUBBLE = 0.04
 """The bubble of a grid line is no wider than this share of the drawing's diagonal."""
 
@@ -51,13 +54,15 @@ def find_margins(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[s
     """Find the marks that stand beside the building and explain it, and the texts in them, by number.
 
     The building is the largest group of marks that touch each other. A box along the edge of the page is
-    a frame if the building stands free in it.
+    a frame if the building stands free in it; so is a thin one with a title block.
     """
     groups = sorted(groups_of(sheet, seen, diagonal), key=lambda group: group.area, reverse=True)
     frames = set()
-    if len(groups) > 1 and is_frame(sheet, groups[0]) and groups[1].area >= BUILDING * groups[0].area:
-        frames = set(groups[0].numbers)
-        groups = groups[1:]
+    places = [(*text.position, *text.position) for text in sheet.texts]
+    if len(groups) > 1 and groups[1].area >= BUILDING * groups[0].area:
+        outer, inner = groups[:2]
+        if is_frame(sheet, outer) or is_form(sheet, outer, inner, places):
+            frames, groups = set(outer.numbers), groups[1:]
     if len(groups) < 2:
         return frames, set()
     whole = np.array([group.bounds for group in groups])
@@ -65,7 +70,6 @@ def find_margins(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[s
     if groups[0].area < BUILDING * all_drawn.area:
         return frames, set()
     beside = [group for group in groups[1:] if not meet(group.bounds, groups[0].bounds)]
-    places = [(*text.position, *text.position) for text in sheet.texts]
     boxes = [group.bounds for group in beside if is_note(sheet, group, places)]
     bubbles = bubbles_among(sheet, beside, places, diagonal)
     boxes += bubbles if len(bubbles) >= BUBBLES else []
@@ -104,15 +108,33 @@ def is_frame(sheet: Sheet, group: Group) -> bool:
     return bool(np.abs(np.subtract(group.bounds, sheet.page)).max() <= reach)
 
 
+def is_form(sheet: Sheet, outer: Group, inner: Group, places: Sequence[Bounds]) -> bool:
+    """Tell whether a group is a thin frame around a building with a title block, in which much is written."""
+    thin, heavy = (max(widths_of(sheet, group), default=0.0) for group in (outer, inner))
+    if not holds(outer.bounds, inner.bounds) or not 0.0 < thin <= THIN * heavy:
+        return False
+    within = [number for number, place in enumerate(places) if holds(outer.bounds, place)]
+    beside = [number for number in within if not holds(inner.bounds, places[number])]
+    return letters_of(sheet, beside) >= LETTERS
+
+
+def widths_of(sheet: Sheet, group: Group) -> list[float]:
+    """List the widths of the pens of a group."""
+    return [pen.width for number in group.numbers if (pen := sheet.marks[number].pen) is not None]
+
+
+def letters_of(sheet: Sheet, numbers: Sequence[int]) -> int:
+    """Count the letters of texts."""
+    return sum(len(sheet.texts[number].text) for number in numbers)
+
+
 def is_note(sheet: Sheet, group: Group, places: Sequence[Bounds]) -> bool:
     """Tell whether a group is a box, maybe with lines in it, in which much is written."""
     boxes = [number for number in group.numbers if is_box(sheet.marks[number])]
     if len(boxes) != 1:
         return False
-    written = [
-        text.text for text, place in zip(sheet.texts, places, strict=True) if holds(group.bounds, place)
-    ]
-    return sum(map(len, written)) >= LETTERS
+    written = [number for number, place in enumerate(places) if holds(group.bounds, place)]
+    return letters_of(sheet, written) >= LETTERS
 
 
 def bubbles_among(
