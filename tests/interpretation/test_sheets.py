@@ -245,6 +245,7 @@ def test_a_title_and_a_small_word_below_it_are_two_names():
         (("Reception", "الاستقبال", "रिसेप्शन"), ["Reception", "الاستقبال", "रिसेप्शन"]),
         (("Main", "hall — الممر"), ["Main hall — الممر"]),
         (("会議室", "エー", "B"), ["会議室 エー B"]),
+        (("Kitchen", "KITCHEN"), ["Kitchen"]),
     ],
 )
 def test_a_line_in_another_script_is_a_name_of_its_own(lines, names):

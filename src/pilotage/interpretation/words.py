@@ -161,10 +161,20 @@ def find_names(texts: Sequence[tuple[int, Text]], walls: Sequence[Polyline] = ()
             chain.append(following[chain[-1]])
         lines = [kept[place][1] for place in chain]
         x, y = np.mean([line.position for line in lines], axis=0).tolist()
-        words = closed_up(" ".join(line.text for line in lines))
+        words = closed_up(" ".join(without_echoes([line.text for line in lines])))
         names.append(Name(words, (x, y), tuple(kept[place][0] for place in chain)))
     heights = {number: text.height for number, text in kept}
     return sorted(names, key=lambda name: -max(heights[number] for number in name.members))
+
+
+def without_echoes(lines: Sequence[str]) -> list[str]:
+    """Leave out lines that say what the line before them says: programs write a name and a label.
+
+    >>> without_echoes(["Kitchen", "KITCHEN", "Living Room", "LivingRoom", "Bed", "Bath"])
+    ['Kitchen', 'Living Room', 'Bed', 'Bath']
+    """
+    said = ["".join(filter(str.isalnum, line.casefold())) for line in lines]
+    return [line for place, line in enumerate(lines) if place == 0 or said[place] != said[place - 1]]
 
 
 def near_lines(texts: Sequence[Text]) -> list[list[int]]:
