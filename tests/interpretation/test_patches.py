@@ -46,3 +46,15 @@ def test_lines_upon_patches_in_outer_walls_are_windows():
     found = interpret(Sheet((OUTSIDE, stroke((50, 0), (50, 80)), *windows)))
 
     assert not found.sketch.doors
+
+
+@pytest.mark.parametrize(("name", "doors"), [("opening", 1), ("sign", 0)])
+def test_a_patch_that_is_named_an_opening_opens_the_wall_of_the_next_room_too(name, doors):
+    rooms = [
+        box(left + x, bottom, left + x + width, bottom + height, fill=BLACK)
+        for left in (0, 50)
+        for x, bottom, width, height in ((0, 0, 50, 1), (0, 79, 50, 1), (0, 0, 1, 80), (49, 0, 1, 80))
+    ]
+    patch = box(49, 30, 50, 42, fill=WHITE, names=(name,))
+
+    assert doors == len(graph_of((*rooms, patch)).gateways)

@@ -15,6 +15,7 @@ from pilotage.interpretation.ends import led_on
 from pilotage.interpretation.floors import find_floors
 from pilotage.interpretation.openings import Openings, find_openings
 from pilotage.interpretation.paint import Seen
+from pilotage.interpretation.patches import opened_through
 from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.view import View
@@ -48,6 +49,8 @@ def take_apart(view: View) -> Parts:
     aside, built = set_aside(view, view.all_but(NO_DOORS, view.visible))
     doors = find_doors(sheet, built, diagonal)
     areas = set() if doors else find_areas(sheet, view.called, diagonal)  # a leaf opens these, too
+    hung = {number for number, role in view.called.items() if role is not None and role[0] is Role.DOOR}
+    built = opened_through(sheet, built, hung, ground)
     built = led_on(sheet, [mark for mark in built if mark.number not in areas], diagonal)
     openings, left = find_openings(view, built, doors)
     sides = {bridge.number for bridge in openings.bridges}

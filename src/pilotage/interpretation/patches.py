@@ -8,14 +8,18 @@ import numpy as np
 import shapely
 
 from pilotage.geometry import Array, Polyline
-from pilotage.interpretation.bars import LEVEL, NEAR, SIZES, Bar, goes_on
+from pilotage.interpretation.bars import LEVEL, NEAR, SIZES, SLENDER, Bar, goes_on
 from pilotage.interpretation.paint import Seen, parts_of
-from pilotage.interpretation.paper import FAINT, difference
+from pilotage.interpretation.paper import FAINT, bounds_of, difference, is_box
 from pilotage.interpretation.segments import Segments, segments_of
 from pilotage.interpretation.sheet import Color, Mark, Sheet
 
 WIDER = 2.0
 """A patch is at least so many times as wide as the line upon it; else it is the light edge of the line."""
+
+BESIDE = 1.6
+"""What a patch that is named a door opens reaches so many of its widths from its middle: through a second
+wall as thick, and a line around it."""
 
 LEAST = 0.015
 """A doorway between two boxes is opened at least so wide, as a share of the drawing's diagonal: a gap of less
@@ -126,6 +130,45 @@ def lies_on(side: Array, walls: Segments, diagonal: float) -> bool:
     steps, lengths = walls.ends[near[1], 1] - walls.ends[near[1], 0], walls.lengths[near[1]]
     level = np.abs(steps[:, 0] * along[1] - steps[:, 1] * along[0]) <= LEVEL * lengths
     return len(np.unique(near[0][level])) == len(points)
+
+
+def opened_through(sheet: Sheet, seen: Sequence[Seen], named: AbstractSet[int], ground: Color) -> list[Seen]:
+    """Open what lies beside patches that are named doors, as far as these are wide, along their whole length.
+
+    Programs draw each room with walls of its own, and the patch over the wall of one room only.
+    """
+    cuts = [
+        shapely.buffer(shapely.LineString(middle), BESIDE * width, cap_style="flat")
+        for number in sorted(named)
+        if (patch := sheet.marks[number]).fill is not None
+        and difference(patch.fill, ground) < FAINT
+        and is_box(patch)
+        for middle, width in [middle_of(patch)]
+        if width <= SLENDER * np.hypot(*(middle[1] - middle[0]))
+    ]
+    if not cuts:
+        return list(seen)
+    cut = shapely.union_all(cuts)
+    shapely.prepare(cut)
+    left = []
+    for mark in seen:
+        if mark.number in named or not (cut.intersects(mark.area) or cut.intersects(mark.line)):
+            left.append(mark)
+        else:
+            line = shapely.multilinestrings(parts_of(shapely.difference(mark.line, cut)))
+            left.append(Seen(mark.number, line, shapely.difference(mark.area, cut), False))
+    return left
+
+
+def middle_of(box: Mark) -> tuple[Array, float]:
+    """Return the ends of the middle line of a box along its longer side, (2, 2), and its width."""
+    left, bottom, right, top = bounds_of(box)
+    center, half = np.array([(left + right) / 2.0, (bottom + top) / 2.0]), (right - left) / 2.0
+    along = np.array([half, 0.0])
+    width = top - bottom
+    if width > 2.0 * half:
+        along, width = np.array([0.0, width / 2.0]), 2.0 * half
+    return np.stack([center - along, center + along]), width
 
 
 def without_bridges(seen: Sequence[Seen], bridges: Sequence[Bridge], diagonal: float) -> list[Seen]:
