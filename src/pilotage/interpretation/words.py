@@ -33,8 +33,11 @@ UNITS = frozenset({
 })  # fmt: skip
 """Words of areas and lengths, and of what dashboards show; with numbers and nothing else they are no name."""
 
-AROUND = frozenset({"a", "s", "h", "ch", "lh", "rh", "ca", "approx", "total"})
-"""What may stand by a measure and is none itself: A = 13.3 m², h 2.50 m, ca. 12 qm."""
+AROUND = frozenset({
+    "a", "s", "h", "ch", "lh", "rh", "ca", "approx", "total", "net", "gross", "netto",
+    "brutto", "约", "净", "約", "약",
+})  # fmt: skip
+"""What may stand by a measure and is none itself: A = 13.3 m², h 2.50 m, ca. 12 qm, 净4.0m."""
 
 SIGNS = (
     "%'\"\N{RIGHT SINGLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}\N{PRIME}\N{DOUBLE PRIME}"
@@ -84,8 +87,8 @@ def is_measure(words: str) -> bool:
     [True, True, True, False, False]
     >>> [is_measure(words) for words in ("16,9 м²", "S = 8.5 кв.м", "6帖", "面积 12 平方米", "洋室 6帖")]
     [True, True, True, True, False]
-    >>> is_measure("2,55"), is_measure("2.55"), is_measure("13.9㎡")
-    (True, False, True)
+    >>> is_measure("2,55"), is_measure("2.55"), is_measure("13.9㎡"), is_measure("净4.0m")
+    (True, False, True, True)
     """
     if COMMA.fullmatch(words.strip()):
         return True
