@@ -26,8 +26,10 @@ SECTORS = 12
 ROWS = 4_096
 """Numbers of rows and of columns of blocks: what lies farther off shares the outermost."""
 MIN_SHARE = 1e-8
-"""Share of the mass on the drawing below which a block is pruned, if not all blocks are that small: places that
-a search finds begin with hardly more, and some need tens of metres to show their worth (decision 0041)."""
+"""Share of the mass on the drawing below which a block is pruned, if not all blocks are that small.
+
+Places that a search finds begin with hardly more, and some need tens of metres to show their worth.
+"""
 MINOR_SHARE = 0.02
 """Tracks with a smaller share get few particles."""
 MINOR_COUNT = (500, 1_500)
