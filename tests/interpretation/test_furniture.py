@@ -61,7 +61,9 @@ def test_what_is_filled_within_a_thin_line_is_furniture_however_large(sides):
     assert are_joined((*WITH_GAP, furniture))
 
 
-@pytest.mark.parametrize(("words", "role"), [("cinema", Role.WALL), ("sofa", Role.FURNITURE)])
+@pytest.mark.parametrize(
+    ("words", "role"), [("cinema", Role.WALL), ("sofa", Role.FURNITURE), ("Шкаф", Role.FURNITURE)]
+)
 def test_what_is_filled_within_a_thin_line_is_a_room_if_it_has_the_name_of_one(words, role):
     sheet = Sheet((*WITH_GAP, box(0.6, 50, 40, 79.4, pen=THIN, fill=CREAM)), (Text(words, (20, 60)),))
 
