@@ -43,3 +43,11 @@ def are_joined(marks):
     ids = {cell.label: cell.cell_id for cell in graph.cells}
     assert set(ROOMS) == set(ids)
     return ids["hall"] in {neighbor.cell_id for neighbor in graph.neighbors(ids["bath"])}
+
+
+def flight(count, *, depth=2.0, width=10.0, turn=0.0):
+    """Lines, one after the other along x, turned as a whole, (n, 2, 2)."""
+    x = depth * np.arange(count)
+    lines = np.stack([np.column_stack([x, 0.0 * x]), np.column_stack([x, 0.0 * x + width])], axis=1)
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    return lines @ rotation.T
