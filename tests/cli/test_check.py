@@ -1,6 +1,7 @@
 """The command `check`, and the options that all commands have for a drawing."""
 
 import json
+import re
 
 import pytest
 
@@ -55,6 +56,15 @@ def test_the_names_under_which_walls_are_drawn_are_listed(pilotage, drawing):
 
     assert "walls by name, for --layer: 'A-ODD' (2)" in told
     assert "walls by name" not in without
+
+
+def test_names_that_are_as_frequent_are_listed_in_the_order_of_the_drawing(pilotage, drawing):
+    names = [f"layer {letter}" for letter in "CADBFE"]
+    groups = "".join(f'<g id="{name}">' for name in names)
+    shelf = f'{groups}<path d="M10,0 V10 H20 V0"/><path d="M30,0 V10 H40 V0"/>{"</g>" * len(names)}'
+    told = pilotage("check", drawing(shelf)).out
+
+    assert names == re.findall("layer [A-F]", told[told.index("walls by name") :])
 
 
 def test_a_goal_that_cannot_be_used_fails(pilotage, drawing):

@@ -153,7 +153,7 @@ def marks_in_words(found: "Report") -> list[str]:
     pairs = zip(found.interpretation.sheet.marks, meanings, strict=True)
     walls = [mark for mark, meaning in pairs if meaning.role is Role.WALL]
     for what, names_of in (("name", lambda mark: mark.names), ("color", colors_of)):
-        names = Counter(name for mark in walls for name in set(names_of(mark)))
+        names = Counter(name for mark in walls for name in dict.fromkeys(names_of(mark)))
         telling = [(name, count) for name, count in names.most_common() if 1 < count < len(walls)]
         if telling:
             common = ", ".join(f"{name!r} ({count})" for name, count in telling[:MOST_NAMES])
