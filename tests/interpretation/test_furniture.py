@@ -121,3 +121,10 @@ def test_words_for_furniture_in_what_is_called_so_name_no_room():
     names = [{cell.label for cell in graph_of((*WITH_GAP, bed), (text,)).cells} for text in texts]
 
     assert [{""}, {""}, {"", "bath"}] == names
+
+
+def test_lines_alike_that_touch_nothing_are_steps_or_shelves():
+    row = tuple(stroke((60, y), (90, y)) for y in (20, 26, 32, 38, 44))
+
+    assert {Role.FURNITURE} == set(roles((*WITH_GAP, *row))[-5:])
+    assert {Role.WALL} == set(roles((*WITH_GAP, *row[:4]))[-4:])

@@ -10,6 +10,7 @@ from pilotage.interpretation.margins import find_margins
 from pilotage.interpretation.meanings import Meaning
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.plates import find_plates
+from pilotage.interpretation.rows import find_rows
 from pilotage.interpretation.sheet import Role
 from pilotage.interpretation.signs import find_signs
 from pilotage.interpretation.view import View
@@ -26,6 +27,7 @@ class Aside:
     axes: AbstractSet[int]  # dashed lines through the building and beyond
     margins: AbstractSet[int]  # what stands beside the building on its sheet
     notes: AbstractSet[int]  # texts of these
+    rows: AbstractSet[int]  # lines alike that touch nothing
 
     @property
     def meanings(self) -> dict[int, Meaning]:
@@ -36,6 +38,7 @@ class Aside:
             **dict.fromkeys(
                 self.margins, Meaning(Role.IGNORE, "beside the building: a frame, notes or a grid")
             ),
+            **dict.fromkeys(self.rows, Meaning(Role.FURNITURE, "a row of lines alike: steps or shelves")),
             **dict.fromkeys(
                 self.signs, Meaning(Role.IGNORE, "a disc in a color of its own, a compass or a plate")
             ),
@@ -54,4 +57,6 @@ def set_aside(view: View, seen: Sequence[Seen]) -> tuple[Aside, list[Seen]]:
     margins, notes = find_margins(sheet, left, diagonal)
     margins -= view.guessed.keys()
     left = [mark for mark in left if mark.number not in margins]
-    return Aside(measuring, lengths, signs, written, axes, margins, notes), left
+    rows = find_rows(left, diagonal) - view.guessed.keys()
+    left = [mark for mark in left if mark.number not in rows]
+    return Aside(measuring, lengths, signs, written, axes, margins, notes, rows), left

@@ -11,6 +11,7 @@ from pilotage.geometry import Array
 from pilotage.interpretation.bars import NEAR
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.paper import boxes_of, holds, is_box
+from pilotage.interpretation.rows import outlines_of
 from pilotage.interpretation.sheet import Bounds, Sheet
 from pilotage.interpretation.signs import is_circle
 
@@ -83,9 +84,7 @@ def groups_of(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Group
     marks = [mark for mark in seen if (pen := sheet.marks[mark.number].pen) is None or not pen.dashed]
     if not marks:
         return []
-    outlines = np.array(
-        [shapely.boundary(mark.area) if mark.line.is_empty else mark.line for mark in marks], dtype=object
-    )
+    outlines = outlines_of(marks)
     pairs = shapely.STRtree(outlines).query(outlines, predicate="dwithin", distance=NEAR * diagonal)
     network = rustworkx.PyGraph(multigraph=False)
     network.add_nodes_from(range(len(marks)))
