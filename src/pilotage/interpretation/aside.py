@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
+import numpy as np
+
 from pilotage.interpretation.dashed import find_axes
 from pilotage.interpretation.dimensions import find_dimensions
 from pilotage.interpretation.margins import find_margins
@@ -13,6 +15,7 @@ from pilotage.interpretation.plates import find_plates
 from pilotage.interpretation.rows import find_rows
 from pilotage.interpretation.sheet import Role
 from pilotage.interpretation.signs import find_signs
+from pilotage.interpretation.touching import among, find_touching
 from pilotage.interpretation.view import View
 
 
@@ -54,9 +57,10 @@ def set_aside(view: View, seen: Sequence[Seen]) -> tuple[Aside, list[Seen]]:
     signs |= find_plates(sheet, unnamed)
     axes = find_axes(sheet, [mark for mark in unnamed if mark.number not in measuring | signs], diagonal)
     left = [mark for mark in seen if mark.number not in measuring | signs | axes]
-    margins, notes = find_margins(sheet, left, diagonal)
+    touching = find_touching(left, diagonal)
+    margins, notes = find_margins(sheet, left, touching, diagonal)
     margins -= view.guessed.keys()
-    left = [mark for mark in left if mark.number not in margins]
-    rows = find_rows(left, diagonal) - view.guessed.keys()
-    left = [mark for mark in left if mark.number not in rows]
+    within = np.array([mark.number not in margins for mark in left], dtype=bool)
+    rows = find_rows(left, among(touching, within)) - view.guessed.keys()
+    left = [mark for mark in left if mark.number not in margins | rows]
     return Aside(measuring, lengths, signs, written, axes, margins, notes, rows), left

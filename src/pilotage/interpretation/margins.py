@@ -5,15 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import rustworkx
-import shapely
+from numpy.typing import NDArray
 
 from pilotage.geometry import Array
-from pilotage.interpretation.bars import NEAR
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.paper import boxes_of, holds, is_box
-from pilotage.interpretation.rows import outlines_of
 from pilotage.interpretation.sheet import Bounds, Sheet
 from pilotage.interpretation.signs import is_circle
+from pilotage.interpretation.touching import among
 
 EDGE = 0.02
 """A frame is this near to the edge of the page on all sides, as a share of the page's diagonal."""
@@ -51,13 +50,16 @@ class Group:
         return (right - left) * (top - bottom)
 
 
-def find_margins(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[set[int], set[int]]:
+def find_margins(
+    sheet: Sheet, seen: Sequence[Seen], touching: NDArray[np.intp], diagonal: float
+) -> tuple[set[int], set[int]]:
     """Find the marks that stand beside the building and explain it, and the texts in them, by number.
 
-    The building is the largest group of marks that touch each other. A box along the edge of the page is
-    a frame if the building stands free in it; so is a thin one with a title block.
+    `touching` (2, n) are the places of marks that touch. The building is the largest group of marks that
+    touch each other. A box along the edge of the page is a frame if the building stands free in it; so is a
+    thin one with a title block.
     """
-    groups = sorted(groups_of(sheet, seen, diagonal), key=lambda group: group.area, reverse=True)
+    groups = sorted(groups_of(sheet, seen, touching), key=lambda group: group.area, reverse=True)
     frames = set()
     places = [(*text.position, *text.position) for text in sheet.texts]
     if len(groups) > 1 and groups[1].area >= BUILDING * groups[0].area:
@@ -79,22 +81,21 @@ def find_margins(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> tuple[s
     return frames | found, texts
 
 
-def groups_of(sheet: Sheet, seen: Sequence[Seen], diagonal: float) -> list[Group]:
-    """Group the marks whose outlines touch each other; dashed lines join nothing."""
-    marks = [mark for mark in seen if (pen := sheet.marks[mark.number].pen) is None or not pen.dashed]
-    if not marks:
-        return []
-    outlines = outlines_of(marks)
-    pairs = shapely.STRtree(outlines).query(outlines, predicate="dwithin", distance=NEAR * diagonal)
+def groups_of(sheet: Sheet, seen: Sequence[Seen], touching: NDArray[np.intp]) -> list[Group]:
+    """Group the marks that touch each other; dashed lines join nothing, and are in no group."""
+    marks = [sheet.marks[mark.number] for mark in seen]
+    joins = np.array([mark.pen is None or not mark.pen.dashed for mark in marks], dtype=bool)
     network = rustworkx.PyGraph(multigraph=False)
-    network.add_nodes_from(range(len(marks)))
-    network.add_edges_from_no_data(list(zip(*pairs.tolist(), strict=True)))
-    boxes: Array = boxes_of([sheet.marks[mark.number] for mark in marks])
+    network.add_nodes_from(range(len(seen)))
+    network.add_edges_from_no_data(list(zip(*among(touching, joins).tolist(), strict=True)))
+    boxes: Array = boxes_of(marks)
     found = []
     for part in rustworkx.connected_components(network):
+        if not joins[min(part)]:
+            continue
         own = boxes[sorted(part)]
         (left, bottom), (right, top) = own[:, :2].min(axis=0).tolist(), own[:, 2:].max(axis=0).tolist()
-        found.append(Group([marks[place].number for place in sorted(part)], (left, bottom, right, top)))
+        found.append(Group([seen[place].number for place in sorted(part)], (left, bottom, right, top)))
     return found
 
 
@@ -140,17 +141,13 @@ def bubbles_among(
     sheet: Sheet, groups: Sequence[Group], places: Sequence[Bounds], diagonal: float
 ) -> list[Bounds]:
     """List what holds the circles around a letter or a number."""
-    return [
-        group.bounds
-        for group in groups
-        if len(group.numbers) == 1 and is_circle(sheet.marks[group.numbers[0]], BUBBLE * diagonal)
-        if [
-            len(text.text.strip()) <= SHORT
-            for text, place in zip(sheet.texts, places, strict=True)
-            if holds(group.bounds, place)
-        ]
-        == [True]
-    ]
+    found = []
+    for group in groups:
+        if len(group.numbers) == 1 and is_circle(sheet.marks[group.numbers[0]], BUBBLE * diagonal):
+            within = [number for number, place in enumerate(places) if holds(group.bounds, place)]
+            if len(within) == 1 and len(sheet.texts[within[0]].text.strip()) <= SHORT:
+                found.append(group.bounds)
+    return found
 
 
 def meet(first: Bounds, second: Bounds) -> bool:

@@ -6,26 +6,20 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from pilotage.interpretation.bars import NEAR
 from pilotage.interpretation.paint import Seen
 from pilotage.interpretation.steps import rows_of_steps
 
 
-def find_rows(seen: Sequence[Seen], diagonal: float) -> set[int]:
-    """Find the marks of rows, by number: each is one straight line that touches no other mark."""
-    outlines = outlines_of(seen)
-    straight = np.flatnonzero(
-        [mark.area.is_empty and shapely.get_num_coordinates(mark.line) == 2 for mark in seen]
-    )
-    tree = shapely.STRtree(outlines)
-    touched, _ = tree.query(outlines[straight], predicate="dwithin", distance=NEAR * diagonal)
-    free = straight[np.bincount(touched, minlength=len(straight)) == 1]
-    lines = shapely.get_coordinates(outlines[free]).reshape(-1, 2, 2)
-    return {seen[place].number for row in rows_of_steps(lines) for place in free[row].tolist()}
+def find_rows(seen: Sequence[Seen], touching: NDArray[np.intp]) -> set[int]:
+    """Find the marks of rows, by number: each is one straight line that touches no other mark.
 
-
-def outlines_of(seen: Sequence[Seen]) -> NDArray[np.object_]:
-    """Return the lines of marks, and of areas without one their boundary, (n,)."""
-    return np.array(
-        [shapely.boundary(mark.area) if mark.line.is_empty else mark.line for mark in seen], dtype=object
-    )
+    `touching` (2, n) are the places of marks that touch, each with itself as well.
+    """
+    times = np.bincount(touching[0], minlength=len(seen))
+    free = [
+        place
+        for place in np.flatnonzero(times == 1).tolist()
+        if seen[place].area.is_empty and shapely.get_num_coordinates(seen[place].line) == 2
+    ]
+    lines = shapely.get_coordinates([seen[place].line for place in free]).reshape(-1, 2, 2)
+    return {seen[free[member]].number for row in rows_of_steps(lines) for member in row.tolist()}
