@@ -49,9 +49,12 @@ def shapes_of(seen: Sequence[Seen]) -> NDArray[np.object_]:
 def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float) -> list[Seen]:
     """Find what is seen of the marks with these numbers; a mark of which nothing is seen is left out."""
     marks = [sheet.marks[number] for number in numbers]
-    inks, fills, widths = painted_with(marks)
+    inks = channels([None if mark.pen is None else mark.pen.color for mark in marks])
+    fills = channels([mark.fill for mark in marks])
+    widths = np.array([np.nan if mark.pen is None else mark.pen.width for mark in marks])
     lines, areas = lines_of(marks), areas_of(marks)
-    inked = (contrast(inks, ground) >= FAINT) & ~of_floor(marks, lines, areas, ground)
+    pale = contrast(inks, ground) < UNLIKE
+    inked = (contrast(inks, ground) >= FAINT) & ~of_floor(lines, areas, (inks, fills), widths, pale)
     hiding = ~inked | (np.ptp(inks, axis=1) >= UNLIKE)
     tracks = tracks_of(lines, np.where(hiding, widths, 0.0))
     covers = shapely.buffer(areas, -EDGE * diagonal, join_style="mitre")
@@ -75,23 +78,23 @@ def look_at(sheet: Sheet, numbers: Sequence[int], ground: Color, diagonal: float
     return [Seen(*mark) for mark, is_seen in zip(found, is_left, strict=True) if is_seen]
 
 
-def painted_with(marks: Sequence[Mark]) -> tuple[Array, Array, Array]:
-    """Return the colors of pens and of fills, (n, 3), and the widths of pens, (n,); nan without one."""
-    inks = channels([None if mark.pen is None else mark.pen.color for mark in marks])
-    widths = np.array([np.nan if mark.pen is None else mark.pen.width for mark in marks])
-    return inks, channels([mark.fill for mark in marks]), widths
-
-
 def of_floor(
-    marks: Sequence[Mark], lines: NDArray[np.object_], areas: NDArray[np.object_], ground: Color
+    lines: NDArray[np.object_],
+    areas: NDArray[np.object_],
+    colors: tuple[Array, Array],
+    widths: Array,
+    pale: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
-    """Tell which lines (n,) are in the pale color of a floor below that they lie on, and erase."""
-    inks, fills, widths = painted_with(marks)
+    """Tell which of the pale lines (n,) are in the color of a floor below that they lie on, and erase.
+
+    `colors` are those of lines and of areas, (n, 3) each, and `widths` (n,) those of lines.
+    """
+    inks, fills = colors
     found = np.zeros(len(lines), dtype=bool)
-    pale = np.flatnonzero(contrast(inks, ground) < UNLIKE)
+    chosen = np.flatnonzero(pale)
     floors = np.flatnonzero(~shapely.is_empty(areas))
-    later, earlier = shapely.STRtree(areas[floors]).query(lines[pale], predicate="intersects")
-    later, earlier = pale[later], floors[earlier]
+    later, earlier = shapely.STRtree(areas[floors]).query(lines[chosen], predicate="intersects")
+    later, earlier = chosen[later], floors[earlier]
     same = (earlier < later) & (contrast(inks[later], fills[earlier]) < SAME)
     later, earlier = later[same], earlier[same]
     if len(later):
