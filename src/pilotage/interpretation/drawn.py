@@ -79,8 +79,9 @@ class Drawn:
         Closing wide gaps fills narrow rooms, and closing narrow ones leaves some open: the larger counts.
         """
         covered = enclosed(NOTHING, self.things, GRAIN * gap)
-        around = max(enclosed(self.solid, self.lines, closed) for closed in (gap, GRAIN * gap))
-        is_furniture = covered < FURNISHED * around
+        is_furniture = any(
+            covered < FURNISHED * enclosed(self.solid, self.lines, closed) for closed in (gap, GRAIN * gap)
+        )
         return self.loose if is_furniture else put_together(self.loose, self.things)
 
     @cached_property
