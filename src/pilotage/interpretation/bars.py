@@ -93,9 +93,10 @@ def find_bars(
     dashed = dashed_among(sheet, seen)
     found: list[Bar] = []
     for places in shapes.values():
-        least = 1 if seen[places[0]].number in named else ALIKE
+        is_named = seen[places[0]].number in named
+        least = 1 if is_named else ALIKE
         bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
-        if least == 1:
+        if is_named:
             bars += [bar for place in places for bar in curved_bars(sheet, seen, place, diagonal)]
         if len({bar.place for bar in bars}) < least:
             continue
@@ -126,7 +127,7 @@ def bars_of(
 ) -> list[Bar]:
     """Return the bar that a mark draws; of a square or a line all that it may be; none for all else.
 
-    So of a box without a line: the wall runs through its middle, along either side.
+    A filled box without a line may be a door in a wall that runs through its middle, along either side.
     """
     mark = sheet.marks[seen[place].number]
     if len(mark.outlines) != 1 or len(mark.outlines[0]) > 5:

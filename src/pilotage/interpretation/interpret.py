@@ -121,17 +121,17 @@ def roles_of_texts(view: View, parts: Parts, layers: Mapping[str, Role]) -> list
 
 
 def told_of_texts(texts: Sequence[Text], layers: Mapping[str, Role]) -> list[tuple[Role, str] | None]:
-    """Tell the role that a person gave to each text.
+    """Return the role that a person gave to each text, None where there is none.
 
-    Where half of all that is no measure is called a label, this says but that they are words: what is
-    written at a door names no place there either.
+    A sheet that calls at least half of its words labels says only that they are words, not that each names
+    a place: so what is written at a door still names none.
     """
     told = [told_role(text.names, layers) for text in texts]
-    labels = [
+    labels = {
         number
         for number, role in enumerate(told)
         if role is not None and role[0] is Role.LABEL and layers.keys().isdisjoint(texts[number].names)
-    ]
+    }
     if 2 * len(labels) < sum(not is_measure(text.text) for text in texts):
         return told
     return [None if number in labels else role for number, role in enumerate(told)]

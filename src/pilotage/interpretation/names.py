@@ -41,9 +41,9 @@ VOCABULARY: Mapping[Role, str] = {
     " parete parede paredes pared tabique tabiques muur muren vägg vegg seinä стена стены mauerwerk muratura"
     " murature alvenaria alvenarias duvar duvarlar ściana ściany sciana sciany stěna stěny stena steny zdivo"
     " falak zid zidovi væg vægge väggar 墙 墙体 壁 벽 벽체",
-    Role.DOOR: "opening openings"
-    " door doors doorarc doorway doorways threshold thresholds tür türen tuer tueren schwelle"
-    " schwellen porte portes seuil seuils porta porte portas soglia soglie soleira puerta puertas umbral"
+    Role.DOOR: "opening openings door doors doorarc doorway doorways threshold thresholds"
+    " tür türen tuer tueren schwelle schwellen porte portes seuil seuils porta porte portas soglia soglie"
+    " soleira puerta puertas umbral"
     " deur deuren drempel dörr ovi двери дверь drzwi dveře dvere kapı kapi kapılar kapilar ajtó ajtók vrata"
     " dør dører døre dörrar 门 ドア 扉 문",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"

@@ -49,8 +49,8 @@ def take_apart(view: View) -> Parts:
     aside, built = set_aside(view, view.all_but(NO_DOORS, view.visible))
     doors = find_doors(sheet, built, diagonal)
     areas = set() if doors else find_areas(sheet, view.called, diagonal)  # a leaf opens these, too
-    hung = {number for number, role in view.called.items() if role is not None and role[0] is Role.DOOR}
-    built = opened_through(sheet, built, hung, ground)
+    named = {number for number, role in view.called.items() if role is not None and role[0] is Role.DOOR}
+    built = opened_through(sheet, built, named, ground)
     built = led_on(sheet, [mark for mark in built if mark.number not in areas], diagonal)
     openings, left = find_openings(view, built, doors)
     sides = {bridge.number for bridge in openings.bridges}
