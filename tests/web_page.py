@@ -40,7 +40,8 @@ class Sheet:
         """Write words."""
         self._take("t", "toolbar-text")
         self.page.mouse.click(x, y)
-        self.page.locator("textarea.excalidraw-wysiwyg").wait_for(timeout=PATIENCE_MS)
+        text = self.page.locator("textarea.excalidraw-wysiwyg")
+        expect(text).to_be_focused(timeout=PATIENCE_MS)  # the editor gives it the keyboard a moment after the click
         self.page.keyboard.type(words)
         self.page.keyboard.press("Escape")
 
