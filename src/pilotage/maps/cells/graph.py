@@ -133,9 +133,13 @@ class CellGraph:
 
     def cell_indices_at(self, points: Array) -> NDArray[np.int64]:
         """Find which of `cells` each point (n, 2) lies in, else which is nearest, (n,)."""
-        found, cells = self.tree.query_nearest(shapely.points(points))
+        places = shapely.points(points)
         indices = np.full(len(points), len(self.cells), dtype=np.int64)
-        np.minimum.at(indices, found, cells)
+        inside, cells = self.tree.query(places, predicate="intersects")
+        np.minimum.at(indices, inside, cells)
+        outside = np.flatnonzero(indices == len(self.cells))
+        nearest, cells = self.tree.query_nearest(places[outside])
+        np.minimum.at(indices, outside[nearest], cells)
         return indices
 
     def cell_at(self, point: tuple[float, float]) -> str:
