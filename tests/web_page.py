@@ -41,7 +41,7 @@ class Sheet:
         self._take("t", "toolbar-text")
         self.page.mouse.click(x, y)
         text = self.page.locator("textarea.excalidraw-wysiwyg")
-        expect(text).to_be_focused(timeout=PATIENCE_MS)  # the editor gives it the keyboard a moment after the click
+        expect(text).to_be_focused(timeout=PATIENCE_MS)  # a moment after the click
         self.page.keyboard.type(words)
         self.page.keyboard.press("Escape")
 
