@@ -59,6 +59,19 @@ def test_a_corridor_keeps_what_lies_between_two_doors():
     assert [gateway.width for gateway in graph.gateways] == pytest.approx([20.0, 20.0], abs=1e-3)
 
 
+def test_a_hall_with_rows_of_columns_each_way_is_one_cell():
+    columns = [
+        [(x, y), (x + 0.5, y), (x + 0.5, y + 0.5), (x, y + 0.5), (x, y)]
+        for x in range(6, 36, 6)
+        for y in range(6, 30, 6)
+    ]
+    office = [[(0, 20), (4, 20)], [(5, 20), (5.7, 20), (5.7, 30)]]
+    hall = [(0, 0), (40, 0), (40, 30), (0, 30), (0, 0)]
+
+    assert 1 == len(decomposed(hall, *columns).cells)
+    assert 2 == len(decomposed(hall, *columns, *office).cells)
+
+
 def test_corridors_that_cross_are_one_cell():
     rooms = [
         shapely.box(x, y, X, Y)

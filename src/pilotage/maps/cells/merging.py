@@ -33,6 +33,9 @@ COLUMN, SCREEN = 0.5, 2.5
 """Two openings are one if what parts them is no wider than this share of one or, between lines, stands free
 and is no larger than so many times one. What stands free and has a thickness may be a wall."""
 
+ALIGNED = np.cos(np.radians(30.0))
+"""Openings lie in a row if their directions differ by no more."""
+
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
 
@@ -67,6 +70,7 @@ class Regions:
         self.drawn: list[bool] = drawn.tolist()
         self.told: list[bool] = tessellation.told.tolist()
         self.beside = neighbors(tessellation, 0.0 if solids_known else SCREEN)
+        self.beyond = beyond_columns(tessellation)
         self.age = [0] * len(among)
         for chord in np.flatnonzero(among[tessellation.sides].all(axis=1)):
             first, second = tessellation.sides[chord].tolist()
@@ -125,7 +129,8 @@ class Regions:
 
     def separation_at(self, chords: Sequence[int], reaches: tuple[float, float], smaller: float) -> float:
         """Tell how much one opening separates two regions that are so wide, the smaller of this area."""
-        opening = sum(self.widths[chord] for chord in chords)
+        beyond = set[int]().union(*(self.beyond.get(chord, ()) for chord in chords)).difference(chords)
+        opening = sum(self.widths[chord] for chord in (*chords, *beyond))
         narrow, wide = sorted(reaches)
         narrowing, mouth, depth = narrow / opening, wide / opening, smaller / opening**2
         jambs = max(self.jambs[chord] * self.widths[chord] for chord in chords) / opening
@@ -184,6 +189,27 @@ def neighbors(tessellation: Tessellation, screen: float) -> dict[int, set[int]]:
         for chord in chords:
             beside.setdefault(chord, set()).update(chords)
     return beside
+
+
+def beyond_columns(tessellation: Tessellation) -> dict[int, set[int]]:
+    """Find for each chord from column to column the others that go on in its direction beyond both of them.
+
+    In a hall with rows of columns each way they lie between other regions, and yet make the opening wider.
+    """
+    steps = tessellation.chords[:, 1] - tessellation.chords[:, 0]
+    along = steps / np.maximum(tessellation.widths, 1e-12)[:, np.newaxis]
+    at_columns = tessellation.post_sizes[tessellation.posts] <= COLUMN * tessellation.widths[:, np.newaxis]
+    around: dict[int, list[int]] = {}
+    for chord, end in np.argwhere(at_columns).tolist():
+        around.setdefault(int(tessellation.posts[chord, end]), []).append(chord)
+    found: dict[int, set[int]] = {}
+    for chord in np.flatnonzero(at_columns.all(axis=1)).tolist():
+        ends = [np.array(around[post]) for post in tessellation.posts[chord].tolist()]
+        aligned = [others[np.abs(along[others] @ along[chord]) >= ALIGNED] for others in ends]
+        beyond = [set(others.tolist()) - {chord} for others in aligned]
+        if all(beyond):
+            found[chord] = set().union(*beyond)
+    return found
 
 
 def merge_pieces(
