@@ -5,7 +5,8 @@ import ezdxf
 import pytest
 
 from pilotage.errors import FileError
-from pilotage.interpretation.sheet import WHITE, Sheet
+from pilotage.interpretation.names import guessed_role
+from pilotage.interpretation.sheet import WHITE, Role, Sheet
 from pilotage.io.dxf import read_dxf
 from shared_data import needs_plans, plan
 
@@ -127,6 +128,14 @@ def test_hatches_are_areas_or_lines(document, tmp_path):
     assert len(strokes.outlines) > 5
     assert strokes.names == ("0", "hatch")
     assert full.fill == (1, 0, 0)
+
+
+def test_a_solid_hatch_is_what_its_layer_says(document, tmp_path):
+    for layer in ("A-WALL", "0"):
+        hatch = document.modelspace().add_hatch(dxfattribs={"layer": layer})
+        hatch.paths.add_polyline_path([(0, 0), (40, 0), (40, 1), (0, 1)])
+    sheet = read(document, tmp_path)
+    assert [guessed_role(mark.names)[0] for mark in sheet.marks] == [Role.WALL, Role.IGNORE]
 
 
 def test_solids_and_wipeouts_are_areas(document, tmp_path):

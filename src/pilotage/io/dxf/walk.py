@@ -119,7 +119,8 @@ class Walk:
         if isinstance(entity, DXFPolygon):
             lines = hatch_lines(entity)
             pen, fill = (None, look.color) if lines is None else (look.pen(0.0), None)
-            outlines, names = boundaries_of(entity) if lines is None else lines, (*names, "hatch")
+            outlines = boundaries_of(entity) if lines is None else lines
+            names = ("hatch", *names) if lines is None else (*names, "hatch")
         elif entity.dxftype() in AREAS:
             outlines, fill = corners(entity), WHITE if entity.dxftype() == "WIPEOUT" else look.color
         else:
