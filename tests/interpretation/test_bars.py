@@ -68,6 +68,20 @@ def test_bars_are_windows_though_the_edge_of_a_roof_is_drawn_around_the_walls():
         assert doors == len(interpret(Sheet(marks)).sketch.doors)
 
 
+@pytest.mark.parametrize("half", [1.5, 6.0])
+def test_a_box_that_is_named_a_door_may_be_as_wide_as_its_wall_or_lie_across_it(half):
+    pen = Pen(BLACK, 0.0)
+    outside = [box(x, x, 100 - x, 80 - x, pen=pen, names=("WALLS",)) for x in (0, 3)]
+    walls = [
+        box(x - 1.5, bottom, x + 1.5, top, pen=pen, names=("WALLS",))
+        for x in (25, 50, 75)
+        for bottom, top in ((3, 30), (39, 77))
+    ]
+    doors = [box(x - half, 30, x + half, 39, pen=pen, names=("DOORS",)) for x in (25, 50, 75)]
+
+    assert 3 == number_of_doors((*outside, *walls, *doors))
+
+
 def test_what_also_stands_in_rooms_is_furniture():
     shelves = [stroke((x, y), (x, y + 12), width=3.0) for x in (10, 37, 60, 90) for y in (20, 50)]
 

@@ -97,6 +97,7 @@ def find_bars(
         least = 1 if is_named else ALIKE
         bars = [bar for place in places for bar in bars_of(sheet, seen, place, diagonal)]
         if is_named:
+            bars += [bar for place in places for bar in boxed_bars(sheet, seen, place, diagonal)]
             bars += [bar for place in places for bar in curved_bars(sheet, seen, place, diagonal)]
         if len({bar.place for bar in bars}) < least:
             continue
@@ -151,6 +152,27 @@ def bars_of(
     return [
         Bar(place, middle + np.array([[-0.5], [0.5]]) * wide * side, float(width))
         for side in (sides if is_square else sides[:1])
+    ]
+
+
+def boxed_bars(sheet: Sheet, seen: Sequence[Seen], place: int, diagonal: float) -> list[Bar]:
+    """Return the bars that a box may be that is named a door: as wide as its wall, or across it."""
+    mark = sheet.marks[seen[place].number]
+    if len(mark.outlines) != 1 or not mark.outlines[0].closed or len(mark.outlines[0]) > 5:
+        return []
+    points = mark.outlines[0].vertices
+    box = shapely.get_coordinates(shapely.oriented_envelope(shapely.multipoints(points)))
+    sides = np.diff(box, axis=0)[:2]
+    lengths = np.hypot(*sides.T)
+    if (
+        not SIZES[0] * diagonal <= lengths.max() <= SIZES[1] * diagonal
+        or lengths.min() <= SLENDER * lengths.max()
+    ):
+        return []
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    return [
+        Bar(place, middle + np.array([[-0.5], [0.5]]) * side, float(width))
+        for side, width in zip(sides, lengths[::-1], strict=True)
     ]
 
 
