@@ -40,17 +40,26 @@ VOCABULARY: Mapping[Role, str] = {
     Role.WALL: "wall walls partition partitions wand waende wände mauer mur murs cloison muro muri muros"
     " parete parede paredes pared tabique tabiques muur muren vägg vegg seinä стена стены mauerwerk muratura"
     " murature alvenaria alvenarias duvar duvarlar ściana ściany sciana sciany stěna stěny stena steny zdivo"
-    " falak zid zidovi væg vægge väggar 墙 墙体 壁 벽 벽체",
+    " falak zid zidovi væg vægge väggar 墙 墙体 壁 벽 벽체"
+    " column columns col cols pillar pillars stütze stützen stuetze stuetzen säule säulen poteau poteaux"
+    " pilier piliers colonna colonne pilastro pilastri columna columnas pilar pilares kolon kolonlar"
+    " колонна колонны 柱 기둥"
+    " perete pereți pereti стіна стіни tường dinding tembok τοίχος τοίχοι"
+    " جدار جدران حائط حوائط دیوار קיר קירות",
     Role.DOOR: "opening openings door doors doorarc doorway doorways threshold thresholds"
     " tür türen tuer tueren schwelle schwellen porte portes seuil seuils porta porte portas soglia soglie"
     " soleira puerta puertas umbral"
     " deur deuren drempel dörr ovi двери дверь drzwi dveře dvere kapı kapi kapılar kapilar ajtó ajtók vrata"
-    " dør dører døre dörrar 门 ドア 扉 문",
+    " dør dører døre dörrar 门 ドア 扉 문"
+    " ușă uși двері cửa pintu πόρτα πόρτες باب أبواب ابواب درب דלת דלתות ovet",
     Role.WINDOW: "window windows glaz glazing fenster fenêtre fenetre fenêtres finestra finestre ventana"
     " ventanas janela janelas raam ramen fönster ikkuna окно окна okno okna pencere pencereler ablak ablakok"
-    " prozor prozori vindu vindue vinduer 窗 窗户 窓 창문",
+    " prozor prozori vindu vindue vinduer 窗 窗户 窓 창문"
+    " win fereastră fereastra ferestre вікно вікна ikkunat jendela παράθυρο παράθυρα"
+    " نافذة نوافذ شباك شبابيك پنجره חלון חלונות",
     Role.STAIRS: "stair stairs staircase steps treppe treppen escalier escaliers scala scale escalera"
-    " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница",
+    " escaleras escada trap trappa lift elevator aufzug fahrstuhl ascenseur ascensor escalator лестница"
+    " scară scări сходи tangga σκάλα σκάλες درج سلالم پله מדרגות",
     Role.FURNITURE: "furniture furnishing furnishings furn moebel möbel mobilier meuble meubles mobili arredo"
     " mobiliario muebles mobília meubilair möbler equipment equip eqpm appliance appliances fixture"
     " fixtures fixt fitting fittings sanitary sanitär sanitaer sanitaires sanitarios plumbing plmb plumb"
@@ -75,10 +84,12 @@ VOCABULARY: Mapping[Role, str] = {
     " prateleira prateleiras armário armários cadeira cadeiras louças meble nábytek nabytek nábytok mobilya"
     " mobilyalar bútor bútorok namještaj møbler huonekalut 家具 洁具 가구"
     " 床 沙发 茶几 桌 椅 凳 柜 冰箱 洗衣机 马桶 浴缸 洗手盆 书架 ベッド ソファ テーブル 机 椅子 冷蔵庫 洗濯機"
-    " 침대 소파 식탁 책상 의자 냉장고 세탁기",
+    " 침대 소파 식탁 책상 의자 냉장고 세탁기"
+    " меблі perabot έπιπλα أثاث اثاث مفروشات مبلمان ריהוט",
     Role.LABEL: "text texts txt anno annotation annotations note notes beschriftung texte testo testi texto"
     " textos tekst raumnamen raumbezeichnung glyph glyphs teksty napisy opisy popisy yazı yazi метки текст"
-    " тексты надписи 文字 문자",
+    " тексты надписи 文字 문자"
+    " نص نصوص متن טקסט",
     Role.IGNORE: "dim dims dimension dimensions bemassung bemaßung cote cotes cotation quote quota cota"
     " cotas title titleblock ttlb titleblk schriftfeld cartouche frame border grid axis axes"
     " achse achsen hatch hatching pattern schraffur hachures defpoints viewport viewports"
@@ -93,11 +104,12 @@ VOCABULARY: Mapping[Role, str] = {
     " eje ejes eixo eixos oś osie wymiar wymiary aks akslar ölçü olcu ölçüler olculer kóta kóty méretek"
     " tengely оси ось размер размеры штриховка сетка dote 轴线 轴网 标注 尺寸 图框 填充 寸法 通り芯 基準線"
     " グリッド 치수 중심선"
-    " leader mleader multileader hilfslinie hilfslinien hilfskonstruktion guide guides guideline guidelines",
+    " leader mleader multileader hilfslinie hilfslinien hilfskonstruktion guide guides guideline guidelines"
+    " розміри ukuran διαστάσεις أبعاد ابعاد محاور מידות",
 }
 """What people call the layers of their plans, in several languages and in the codes of CAD standards."""
 
-DISCIPLINE = re.compile(r"(?:.*[|$])?[EFMPT]-[A-Z]{4}\b")
+DISCIPLINE = re.compile(r"(?:.*[|$])?[EFMPT]-[A-Z]{4,}\b")
 """What is no part of a building in the codes of CAD standards: electrical, fire, mechanical, plumbing and
 telecommunications. The name of another file may stand before."""
 
