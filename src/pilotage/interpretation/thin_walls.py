@@ -1,6 +1,7 @@
 """Walls that are single lines, beside lines in other pens."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -78,6 +79,27 @@ def black_lines(drawn: Drawn) -> Walls | None:
     long = [part for part in parts_of(rest) if extent(part) >= least]
     beside = without_twins(outer, long, 2.0 * jamb)
     return Walls(drawn.solid, shapely.union_all([main, parting, *beside]), drawn.colors)
+
+
+def named_lines(drawn: Drawn, others: Callable[[], tuple[shapely.Geometry, ...]]) -> Walls | None:
+    """Take lines that are named walls or windows as black ones, and the others as if in a color.
+
+    `others` parts these into black ones, those in a color, and outlines of things. What stands free of walls
+    is none. None if what is named encloses less than nearly all that all lines do.
+    """
+    if drawn.faces.is_empty:
+        return None
+    gap = drawn.gap(WIDE_GAP)
+    if enclosed(NOTHING, drawn.faces, gap) < NEARLY_ALL * enclosed(NOTHING, drawn.lines, gap):
+        return None
+    black, loose, things = others()
+    edge = EDGE * drawn.diagonal
+    body = shapely.union_all(shapely.buffer(parts_of(drawn.faces), edge))
+    left = without_islands(parts_of(put_together(black, loose)), body, edge)
+    loose = shapely.multilinestrings(parts_of(left))
+    if loose.is_empty and things.is_empty:
+        return Walls(drawn.solid, drawn.faces, drawn.colors)
+    return black_lines(replace(drawn, main=drawn.faces, loose=loose, things=things))
 
 
 def without_twins(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 
 import shapely
@@ -13,7 +14,7 @@ from pilotage.interpretation.pens import THIN, by_style, usual_pen
 from pilotage.interpretation.sheet import Color, Role, Sheet
 from pilotage.interpretation.solids import dark_areas
 from pilotage.interpretation.thick_walls import faced_walls, named_walls, painted_walls
-from pilotage.interpretation.thin_walls import black_lines
+from pilotage.interpretation.thin_walls import black_lines, named_lines
 from pilotage.interpretation.windows import is_glass
 
 
@@ -31,6 +32,9 @@ def find_walls(
 
     Walls are painted, or have two faces, or are black lines: the first of these that encloses the rooms.
     """
+    of_walls, of_windows = (
+        [mark for mark in seen if named.get(mark.number) is role] for role in (Role.WALL, Role.WINDOW)
+    )
     fills = [
         (mark, color)
         for mark in seen
@@ -40,22 +44,26 @@ def find_walls(
     solid = shapely.union_all(
         [mark.area for mark, color in fills if color in colors or named.get(mark.number) is Role.WALL]
     )
-    styles = (by_style(seen, sheet, named, solid, diagonal, share=share) for share in THIN)
+    styled = partial(by_style, sheet=sheet, named=named, solid=solid, diagonal=diagonal)
+    styles = (styled(seen, share=share) for share in THIN)
     drawn = Drawn(
         solid,
         frozenset(colors),
         *next(styles),
         panels=shapely.union_all([mark.area for mark, color in fills if color in thin]),
         glass=glass_among(seen, named, [(mark, color) for mark, color in fills if color not in colors]),
-        named=named_lines(seen, named),
+        named=shapely.union_all([mark.line for mark in of_walls]),
+        windows=shapely.union_all([mark.line for mark in of_windows]),
         floors=floors,
         doors=doors,
         told=sheet.openings,
         pen=usual_pen(seen, sheet).width,
         diagonal=diagonal,
     )
+    others = [mark for mark in seen if named.get(mark.number) not in (Role.WALL, Role.WINDOW)]
+    among_named = partial(named_lines, others=lambda: styled(others, share=THIN[0]))
     tried = chain(
-        (way(drawn) for way in (named_walls, painted_walls, faced_walls, black_lines)),
+        (way(drawn) for way in (named_walls, painted_walls, faced_walls, among_named, black_lines)),
         (
             black_lines(replace(drawn, main=main, loose=loose, things=things))
             for main, loose, things in styles
@@ -71,12 +79,3 @@ def glass_among(
     windows = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
     painted = [mark.area for mark, color in fills if mark.line.is_empty and is_glass(mark.area, color)]
     return shapely.union_all([*(shape for mark in windows for shape in (mark.line, mark.area)), *painted])
-
-
-def named_lines(seen: Sequence[Seen], named: Mapping[int, Role]) -> shapely.Geometry:
-    """Join the lines that are named walls with those named windows; none where no wall is named."""
-    walls, windows = (
-        shapely.union_all([mark.line for mark in seen if named.get(mark.number) is role])
-        for role in (Role.WALL, Role.WINDOW)
-    )
-    return walls if walls.is_empty else shapely.union(walls, windows)

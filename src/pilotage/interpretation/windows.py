@@ -1,11 +1,17 @@
 """Tell windows from furniture and from doors that are drawn shut, between painted walls."""
 
-import shapely
+from collections.abc import Mapping, Sequence
 
-from pilotage.interpretation.paint import parts_of
+import numpy as np
+import shapely
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from pilotage.interpretation.paint import Seen, parts_of, shapes_of
 from pilotage.interpretation.pieces import joined, straight
-from pilotage.interpretation.sheet import Color
+from pilotage.interpretation.sheet import Color, Role
 from pilotage.interpretation.solids import COARSE, HAIR, SLENDER, extent, lightness, measured_walls
+from pilotage.interpretation.touching import find_touching
 
 PANES = 3
 """A window is drawn with so many lines or more from jamb to jamb: faces of its wall, and panes between."""
@@ -13,8 +19,36 @@ PANES = 3
 LIGHT, BLUE = 0.6, 0.15
 """Glass is painted in a color at least so light, and with so much less red than blue, 0 to 1."""
 
+RUNNING = 0.9
+"""A wall runs on through a window if it does so over this share of the window's diagonal."""
+
 DEEP = 1.2
 """They lie within so many thicknesses of a wall."""
+
+
+def without_signs(seen: Sequence[Seen], named: Mapping[int, tuple[Role, str]], diagonal: float) -> list[Seen]:
+    """Leave out windows that are signs upon a wall: its line, which is named a wall, runs on through them.
+
+    Marks that touch each other draw one window.
+    """
+    walls, windows = (
+        [mark for mark in seen if mark.number in named and named[mark.number][0] is role]
+        for role in (Role.WALL, Role.WINDOW)
+    )
+    if not walls or not windows:
+        return list(seen)
+    first, second = find_touching(windows, diagonal)
+    touching = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(windows), len(windows)))
+    count, owners = connected_components(touching, directed=False)
+    outlines = shapes_of(windows)[0]
+    hulls = shapely.convex_hull([shapely.union_all(outlines[owners == number]) for number in range(count)])
+    lines = parts_of(shapes_of(walls)[0])
+    found, along = shapely.STRtree(lines).query(hulls, predicate="intersects")
+    inside = shapely.length(shapely.intersection(hulls[found], lines[along]))
+    through = np.bincount(found, inside, count)
+    are_signs = through >= RUNNING * np.array([extent(hull) for hull in hulls])
+    signs = {window.number for window, owner in zip(windows, owners, strict=True) if are_signs[owner]}
+    return [mark for mark in seen if mark.number not in signs]
 
 
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
