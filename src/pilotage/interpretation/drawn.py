@@ -61,8 +61,7 @@ class Drawn:
     things: shapely.Geometry  # such lines around a fill without a name, and those both dashed and thin
     panels: shapely.Geometry  # what of the solid is painted thinly, in a color of its own
     glass: shapely.Geometry  # lines and areas that are named windows, or painted as such
-    named: shapely.Geometry  # lines that are named walls
-    windows: shapely.Geometry  # and those that are named windows
+    named: shapely.Geometry  # lines that are named walls or windows; none where no wall is named
     floors: shapely.Geometry  # areas painted in a color near to that of the ground
     doors: Sequence[Door]
     told: Sequence[Polyline]  # doors that the file itself tells
@@ -84,11 +83,6 @@ class Drawn:
             covered < FURNISHED * enclosed(self.solid, self.lines, closed) for closed in (gap, GRAIN * gap)
         )
         return self.loose if is_furniture else put_together(self.loose, self.things)
-
-    @cached_property
-    def faces(self) -> shapely.Geometry:
-        """Lines that are named walls or windows; none where no wall is named."""
-        return self.named if self.named.is_empty else shapely.union(self.named, self.windows)
 
     @cached_property
     def openings(self) -> shapely.Geometry:

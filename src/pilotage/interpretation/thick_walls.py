@@ -35,10 +35,10 @@ NAMED = 0.5
 
 def named_walls(drawn: Drawn) -> Walls | None:
     """Fill what lies between two faces that are named walls; None if few doors stand in them."""
-    thickness = greatest_thickness(drawn.faces, drawn.door_width, drawn.diagonal)
+    thickness = greatest_thickness(drawn.named, drawn.door_width, drawn.diagonal)
     if drawn.named.is_empty or thickness is None:
         return None
-    filled = filled_between(drawn.faces, drawn.solid, thickness)
+    filled = filled_between(drawn.named, drawn.solid, thickness)
     return painted_walls(replace(drawn, solid=filled)) if drawn.share_of_doors(filled) >= HOLDING else None
 
 
@@ -63,10 +63,7 @@ def painted_walls(drawn: Drawn) -> Walls | None:
 
 
 def faced_walls(drawn: Drawn) -> Walls | None:
-    """Fill what lies between two faces of a wall; None if that does not enclose the rooms.
-
-    Lines that are named walls, and have no second face among them, are walls themselves.
-    """
+    """Fill what lies between two faces of a wall; None if that does not enclose the rooms."""
     gap = drawn.gap(WIDE_GAP)
     thickness = greatest_thickness(drawn.lines, drawn.door_width, drawn.diagonal)
     if thickness is None:
@@ -78,10 +75,7 @@ def faced_walls(drawn: Drawn) -> Walls | None:
         drawn.lines,
         gap,
         FACED if drawn.door_width is None else ENCLOSING,
-    ) or leaves_out(walls, drawn.faces, thickness):
-        return None
-    alone = filled_between(drawn.named, drawn.solid, thickness)
-    if not drawn.named.is_empty and leaves_out(alone, drawn.named, thickness):
+    ) or leaves_out(walls, drawn.named, thickness):
         return None
     shut = shut_doors(drawn.lines, walls, thickness, max(drawn.widest, WIDEST * USUAL_DOOR * drawn.diagonal))
     cut = shapely.buffer(shut, SHUT * thickness, join_style="mitre")

@@ -85,21 +85,21 @@ def named_lines(drawn: Drawn, others: Callable[[], tuple[shapely.Geometry, ...]]
     """Take lines that are named walls or windows as black ones, and the others as if in a color.
 
     `others` parts these into black ones, those in a color, and outlines of things. What stands free of walls
-    is none. None if what is named encloses less than nearly all that all lines do.
+    is none. None if there are no others, or what is named encloses less than nearly all that all lines do.
     """
-    if drawn.faces.is_empty:
+    black, loose, things = others()
+    if drawn.named.is_empty or (black.is_empty and loose.is_empty and things.is_empty):
         return None
     gap = drawn.gap(WIDE_GAP)
-    if enclosed(NOTHING, drawn.faces, gap) < NEARLY_ALL * enclosed(NOTHING, drawn.lines, gap):
+    if enclosed(NOTHING, drawn.named, gap) < NEARLY_ALL * enclosed(NOTHING, drawn.lines, gap):
         return None
-    black, loose, things = others()
     edge = EDGE * drawn.diagonal
-    body = shapely.union_all(shapely.buffer(parts_of(drawn.faces), edge))
+    body = shapely.union_all(shapely.buffer(parts_of(drawn.named), edge))
     left = without_islands(parts_of(put_together(black, loose)), body, edge)
     loose = shapely.multilinestrings(parts_of(left))
     if loose.is_empty and things.is_empty:
-        return Walls(drawn.solid, drawn.faces, drawn.colors)
-    return black_lines(replace(drawn, main=drawn.faces, loose=loose, things=things))
+        return Walls(drawn.solid, drawn.named, drawn.colors)
+    return black_lines(replace(drawn, main=drawn.named, loose=loose, things=things))
 
 
 def without_twins(

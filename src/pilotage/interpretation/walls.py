@@ -32,9 +32,6 @@ def find_walls(
 
     Walls are painted, or have two faces, or are black lines: the first of these that encloses the rooms.
     """
-    of_walls, of_windows = (
-        [mark for mark in seen if named.get(mark.number) is role] for role in (Role.WALL, Role.WINDOW)
-    )
     fills = [
         (mark, color)
         for mark in seen
@@ -52,8 +49,7 @@ def find_walls(
         *next(styles),
         panels=shapely.union_all([mark.area for mark, color in fills if color in thin]),
         glass=glass_among(seen, named, [(mark, color) for mark, color in fills if color not in colors]),
-        named=shapely.union_all([mark.line for mark in of_walls]),
-        windows=shapely.union_all([mark.line for mark in of_windows]),
+        named=closing_lines(seen, named),
         floors=floors,
         doors=doors,
         told=sheet.openings,
@@ -79,3 +75,12 @@ def glass_among(
     windows = [mark for mark in seen if named.get(mark.number) is Role.WINDOW]
     painted = [mark.area for mark, color in fills if mark.line.is_empty and is_glass(mark.area, color)]
     return shapely.union_all([*(shape for mark in windows for shape in (mark.line, mark.area)), *painted])
+
+
+def closing_lines(seen: Sequence[Seen], named: Mapping[int, Role]) -> shapely.Geometry:
+    """Join the lines that are named walls with those named windows; none where no wall is named."""
+    walls, windows = (
+        shapely.union_all([mark.line for mark in seen if named.get(mark.number) is role])
+        for role in (Role.WALL, Role.WINDOW)
+    )
+    return walls if walls.is_empty else shapely.union(walls, windows)

@@ -36,6 +36,10 @@ and is no larger than so many times one. What stands free and has a thickness ma
 ALIGNED = np.cos(np.radians(30.0))
 """Openings lie in a row if their directions differ by no more."""
 
+PILLAR, CROSSING = 0.2, 4
+"""A column in a hall is no larger than this share of an opening beside it, and at least so many openings lead
+away from it that go on beyond it. A piece of wall between doors is larger."""
+
 WITHIN_WALL = 0.5
 """What lies between two outlines of one wall at a door has at most this area, in squares of its width."""
 
@@ -192,24 +196,24 @@ def neighbors(tessellation: Tessellation, screen: float) -> dict[int, set[int]]:
 
 
 def beyond_columns(tessellation: Tessellation) -> dict[int, set[int]]:
-    """Find for each chord from column to column the others that go on in its direction beyond both of them.
+    """Find for each chord the others that go on in its direction beyond a column at one of its ends.
 
-    In a hall with rows of columns each way they lie between other regions, and yet make the opening wider.
+    From a column openings lead away to at least four sides: it stands within a hall, and not between rooms.
     """
     steps = tessellation.chords[:, 1] - tessellation.chords[:, 0]
     along = steps / np.maximum(tessellation.widths, 1e-12)[:, np.newaxis]
-    at_columns = tessellation.post_sizes[tessellation.posts] <= COLUMN * tessellation.widths[:, np.newaxis]
+    at_columns = tessellation.post_sizes[tessellation.posts] <= PILLAR * tessellation.widths[:, np.newaxis]
     around: dict[int, list[int]] = {}
     for chord, end in np.argwhere(at_columns).tolist():
         around.setdefault(int(tessellation.posts[chord, end]), []).append(chord)
-    found: dict[int, set[int]] = {}
-    for chord in np.flatnonzero(at_columns.all(axis=1)).tolist():
-        ends = [np.array(around[post]) for post in tessellation.posts[chord].tolist()]
-        aligned = [others[np.abs(along[others] @ along[chord]) >= ALIGNED] for others in ends]
-        beyond = [set(others.tolist()) - {chord} for others in aligned]
-        if all(beyond):
-            found[chord] = set().union(*beyond)
-    return found
+    beyond: dict[int, set[int]] = {}
+    for chords in around.values():
+        aligned = np.abs(along[chords] @ along[chords].T) >= ALIGNED
+        np.fill_diagonal(aligned, val=False)
+        if np.count_nonzero(aligned.any(axis=1)) >= CROSSING:
+            for place, chord in enumerate(chords):
+                beyond.setdefault(chord, set()).update(np.array(chords)[aligned[place]].tolist())
+    return beyond
 
 
 def merge_pieces(
