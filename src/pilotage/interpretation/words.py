@@ -28,7 +28,8 @@ ALIKE = 1.35
 UNITS = frozenset({
     "mm", "cm", "m", "ft", "feet", "in", "inch", "inches", "sq", "sqm", "sqft", "sf", "qm", "mq", "m²", "ft²",
     "㎡", "坪", "평", "畳", "帖", "米", "平米", "平方米", "metres", "meters", "x", "кв", "м", "м²",
-    "см", "мм", "kvm", "area", "fläche", "superficie", "surface", "площадь", "面积",
+    "см", "мм", "م", "م²", "متر", "مربع", "מ", "ר", "τ", "μ", "kvm",
+    "area", "fläche", "superficie", "surface", "площадь", "面积",
     "°c", "°f", "kw", "kwh", "lx", "lux", "ppm", "hpa",
 })  # fmt: skip
 """Words of areas and lengths, and of what dashboards show; with numbers and nothing else they are no name."""
@@ -87,6 +88,8 @@ def is_measure(words: str) -> bool:
     [True, True, True, False, False]
     >>> [is_measure(words) for words in ("16,9 м²", "S = 8.5 кв.м", "6帖", "面积 12 平方米", "洋室 6帖")]
     [True, True, True, True, False]
+    >>> [is_measure(words) for words in ("15 م²", "12 τ.μ.", "غرفة النوم 1")]
+    [True, True, False]
     >>> is_measure("2,55"), is_measure("2.55"), is_measure("13.9㎡"), is_measure("净4.0m")
     (True, False, True, True)
     """
