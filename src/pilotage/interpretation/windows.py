@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import rustworkx
 import shapely
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from pilotage.interpretation.paint import Seen, parts_of, shapes_of
 from pilotage.interpretation.pieces import joined, straight
@@ -37,17 +36,18 @@ def without_signs(seen: Sequence[Seen], named: Mapping[int, tuple[Role, str]], d
     )
     if not walls or not windows:
         return list(seen)
-    first, second = find_touching(windows, diagonal)
-    touching = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(windows), len(windows)))
-    count, owners = connected_components(touching, directed=False)
+    touching = rustworkx.PyGraph()
+    touching.add_nodes_from(range(len(windows)))
+    touching.add_edges_from_no_data(list(map(tuple, find_touching(windows, diagonal).T.tolist())))
+    groups = [sorted(group) for group in rustworkx.connected_components(touching)]
     outlines = shapes_of(windows)[0]
-    hulls = shapely.convex_hull([shapely.union_all(outlines[owners == number]) for number in range(count)])
+    hulls = shapely.convex_hull([shapely.union_all(outlines[group]) for group in groups])
     lines = parts_of(shapes_of(walls)[0])
     found, along = shapely.STRtree(lines).query(hulls, predicate="intersects")
     inside = shapely.length(shapely.intersection(hulls[found], lines[along]))
-    through = np.bincount(found, inside, count)
+    through = np.bincount(found, inside, len(groups))
     are_signs = through >= RUNNING * np.array([extent(hull) for hull in hulls])
-    signs = {window.number for window, owner in zip(windows, owners, strict=True) if are_signs[owner]}
+    signs = {windows[place].number for number in np.flatnonzero(are_signs) for place in groups[number]}
     return [mark for mark in seen if mark.number not in signs]
 
 
