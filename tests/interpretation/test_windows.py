@@ -45,6 +45,18 @@ def test_windows_of_several_lines_are_signs_as_a_whole():
     assert 2 == len(graph_of((*WALLS, *panes)).cells)
 
 
+def test_windows_in_gaps_of_a_wall_that_is_one_line_are_one_line():
+    walls = [
+        stroke(*ends, names=("WALLS",))
+        for ends in (((0, 0), (10, 0)), ((30, 0), (100, 0)), ((0, 0), (0, 80), (100, 80), (100, 0)))
+    ]
+    sill = stroke((10, 0), (30, 0), names=("WINDOWS",))
+
+    for marks in ((WINDOWS[0],), (WINDOWS[0], sill)):
+        assert are_joined((*walls, *WALLS[1:], *marks))
+        assert 2 == len(graph_of((*walls, *WALLS[1:], *marks)).cells)
+
+
 def test_where_named_walls_enclose_all_what_stands_free_and_bears_another_name_is_none():
     areas = [box(60, 20, 70, 34, pen=PEN, names=("X1",)), box(10, 20, 20, 34, pen=PEN, names=("X2",))]
     roles = [meaning.role for meaning in interpret(Sheet((*WALLS, *areas))).meanings]

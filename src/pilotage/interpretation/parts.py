@@ -20,7 +20,7 @@ from pilotage.interpretation.sheet import Mark, Role
 from pilotage.interpretation.stairs import find_stairs
 from pilotage.interpretation.view import View
 from pilotage.interpretation.walls import find_walls
-from pilotage.interpretation.windows import without_signs
+from pilotage.interpretation.windows import on_single_walls
 
 NO_WALLS = (Role.DOOR, Role.STAIRS, Role.FURNITURE, Role.LABEL, Role.IGNORE)
 """What a name makes one of these is no wall; windows close rooms as walls do, stairs by their outline."""
@@ -57,7 +57,7 @@ def take_apart(view: View) -> Parts:
     sides = {bridge.number for bridge in openings.bridges}
     lines = [mark for mark in left if mark.number in sides or view.role(mark) not in NO_WALLS]
     dashed = find_dashed(sheet, lines, view.guessed, diagonal)
-    lines = without_signs([mark for mark in lines if mark.number not in dashed], view.guessed, diagonal)
+    lines = on_single_walls([mark for mark in lines if mark.number not in dashed], view.guessed, diagonal)
     walls = find_walls(
         lines,
         sheet,

@@ -1,12 +1,15 @@
 """Tell windows from furniture and from doors that are drawn shut, between painted walls."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import rustworkx
 import shapely
+from numpy.typing import NDArray
 
-from pilotage.interpretation.paint import Seen, parts_of, shapes_of
+from pilotage.interpretation.bars import NEAR
+from pilotage.interpretation.paint import NOTHING, Seen, parts_of, shapes_of
 from pilotage.interpretation.pieces import joined, straight
 from pilotage.interpretation.sheet import Color, Role
 from pilotage.interpretation.solids import COARSE, HAIR, SLENDER, extent, lightness, measured_walls
@@ -25,10 +28,13 @@ DEEP = 1.2
 """They lie within so many thicknesses of a wall."""
 
 
-def without_signs(seen: Sequence[Seen], named: Mapping[int, tuple[Role, str]], diagonal: float) -> list[Seen]:
-    """Leave out windows that are signs upon a wall: its line, which is named a wall, runs on through them.
+def on_single_walls(
+    seen: Sequence[Seen], named: Mapping[int, tuple[Role, str]], diagonal: float
+) -> list[Seen]:
+    """Take windows for one line where the walls beside them are single lines that are named walls.
 
-    Marks that touch each other draw one window.
+    A window is left out where such a wall runs on through it: it is a sign, and closes nothing. Marks that
+    touch each other draw one window.
     """
     walls, windows = (
         [mark for mark in seen if mark.number in named and named[mark.number][0] is role]
@@ -42,13 +48,38 @@ def without_signs(seen: Sequence[Seen], named: Mapping[int, tuple[Role, str]], d
     groups = [sorted(group) for group in rustworkx.connected_components(touching)]
     outlines = shapes_of(windows)[0]
     hulls = shapely.convex_hull([shapely.union_all(outlines[group]) for group in groups])
-    lines = parts_of(shapes_of(walls)[0])
-    found, along = shapely.STRtree(lines).query(hulls, predicate="intersects")
-    inside = shapely.length(shapely.intersection(hulls[found], lines[along]))
-    through = np.bincount(found, inside, len(groups))
-    are_signs = through >= RUNNING * np.array([extent(hull) for hull in hulls])
-    signs = {windows[place].number for number in np.flatnonzero(are_signs) for place in groups[number]}
-    return [mark for mark in seen if mark.number not in signs]
+    lines = shapely.STRtree(parts_of(shapes_of(walls)[0]))
+    changed: dict[int, shapely.Geometry] = {}
+    for group, hull, is_sign in zip(groups, hulls, run_through(hulls, lines), strict=True):
+        middle = NOTHING if is_sign else between_ends(hull, lines, NEAR * diagonal)
+        if middle is not None:
+            changed.update(dict.fromkeys((windows[place].number for place in group), NOTHING))
+            changed[windows[group[0]].number] = middle
+    return [
+        mark if mark.number not in changed else replace(mark, line=changed[mark.number], whole=False)
+        for mark in seen
+        if changed.get(mark.number) is not NOTHING
+    ]
+
+
+def run_through(hulls: NDArray[np.object_], walls: shapely.STRtree) -> NDArray[np.bool_]:
+    """Tell through which windows, by their hulls (n,), a line of a wall runs on, (n,)."""
+    found, along = walls.query(hulls, predicate="intersects")
+    inside = shapely.length(shapely.intersection(hulls[found], walls.geometries[along]))
+    through = np.bincount(found, inside, len(hulls))
+    return np.asarray(through >= RUNNING * np.array([extent(hull) for hull in hulls]))
+
+
+def between_ends(hull: shapely.Geometry, walls: shapely.STRtree, near: float) -> shapely.Geometry | None:
+    """Return the middle line of a window if walls meet both its ends there and at no corner; None if not."""
+    corners = shapely.get_coordinates(shapely.oriented_envelope(hull))[:4]
+    if len(corners) < 4:
+        return None
+    if np.hypot(*(corners[1] - corners[0])) > np.hypot(*(corners[2] - corners[1])):
+        corners = np.roll(corners, -1, axis=0)
+    ends = np.array([corners[:2].mean(axis=0), corners[2:].mean(axis=0)])
+    meets, _ = walls.query(shapely.points(np.vstack([ends, corners])), predicate="dwithin", distance=near)
+    return shapely.linestrings(ends) if set(meets.tolist()) == {0, 1} else None
 
 
 def without_slivers(solid: shapely.Geometry, width: float) -> shapely.Geometry:
